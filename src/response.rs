@@ -8,12 +8,11 @@ use std::fmt::Write;
 use serde::{Serialize, Serializer};
 
 use crate::scene::{Scene, SceneError};
-use crate::simulation::{Excitation, Outputs, Simulation, segment_of};
+use crate::simulation::{Outputs, Simulation, segment_of};
 use crate::solver::{Demands, Work};
 use crate::wall::{Sides, Support, Warning};
 
 pub use shock::Shock;
-use shock::Shocks;
 
 /// One line of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,17 +198,13 @@ impl Response {
         let mut ties: Vec<_> =
             simulation.wall().ties().iter().map(|_| Vec::with_capacity(count + 1)).collect();
         add_ties(&mut ties, &simulation);
-        let mut shocks = Shocks::new(simulation.demands(support_at(0.0), &scene.thresholds));
-        let mut later = scene.excitation.iter().flat_map(Excitation::later_shocks).peekable();
+        let shocks = shock::shocks(scene, simulation.clone(), excitation)?;
+        let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
         let mut put_to_rest = false;
         for index in 1..=count {
             #[allow(clippy::cast_precision_loss, reason = "count ≤ 2e7")]
             let time = (index as f64 * scene.output_step).min(scene.stop_time);
-            while let Some(start) = later.next_if(|start| *start <= time) {
-                put_to_rest |= simulation.advance_to(start, excitation, Some(&mut shocks.demands))?;
-                shocks.begin_next(&simulation, support_at(start), &scene.thresholds);
-            }
-            put_to_rest |= simulation.advance_to(time, excitation, Some(&mut shocks.demands))?;
+            put_to_rest |= simulation.advance_to(time, excitation, Some(&mut demands))?;
             samples.push(sample(&simulation, support_at(time)));
             add_ties(&mut ties, &simulation);
         }
@@ -234,7 +229,6 @@ impl Response {
         let wall = simulation.wall();
         let of_start = wall.start_warning(scene.parameters.u_start);
         let warnings = wall.warnings().iter().cloned().chain(of_start).collect();
-        let (shocks, demands) = shocks.finish(&simulation);
         Ok(Self { samples, summary, demands, shocks, ties, residual, warnings })
     }
 

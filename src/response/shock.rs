@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use crate::simulation::Simulation;
-use crate::solver::{Demands, reported_peak};
-use crate::wall::Support;
+use crate::scene::Scene;
+use crate::simulation::{Excitation, Progress, RunError, Simulation, segment_of};
+use crate::solver::{Demands, Peaks, State};
 
 /// A shock of a sequence, from its first sample to that of the next one, or to the end of the run. The wall,
 /// its ties and what they remember go on from one to the next.
@@ -14,7 +14,7 @@ pub struct Shock {
     pub start: f64,
     /// When it ends \[s\].
     pub end: f64,
-    /// Largest |u| of this shock up to overturning; `u_ins` of its side for a wall that falls \[m\].
+    /// Largest |u| of this shock; `u_ins` of its side for a wall that falls \[m\].
     pub u_max: f64,
     /// Largest |u|/`u_ins` of its side; 1 for a wall that falls \[-\].
     pub u_ratio_max: f64,
@@ -24,70 +24,33 @@ pub struct Shock {
     pub falls: bool,
     /// u at the end of this shock \[m\].
     pub residual: f64,
-    /// Demands of this shock; `None` after the one in which the wall overturns. The elongation of a tie, and
-    /// that it has broken, are those of all shocks so far.
-    pub demands: Option<Demands>,
+    /// Demands of this shock up to overturning. The elongation of a tie is that of all shocks so far. A tie
+    /// that had broken before has the start as its time.
+    pub demands: Demands,
 }
 
-/// Demands shock by shock, during a run.
-pub(super) struct Shocks {
-    ended: Vec<Shock>,
-    start: f64,
-    /// Whether the wall had overturned before this shock.
-    had_overturned: bool,
-    /// Demands of the shocks before this one.
-    before: Option<Demands>,
-    /// Demands of this shock, or of the last one before overturning and all that follow.
-    pub(super) demands: Demands,
-}
-
-impl Shocks {
-    /// Begins with the demands of the start.
-    pub(super) fn new(demands: Demands) -> Self {
-        Self { ended: Vec::new(), start: 0.0, had_overturned: false, before: None, demands }
-    }
-
-    /// Ends a shock, and begins the next one now.
-    pub(super) fn begin_next(&mut self, simulation: &Simulation, support: Support, fractions: &[f64]) {
-        self.end(simulation);
-        self.start = simulation.progress().time;
-        self.had_overturned = simulation.progress().state.overturned;
-        if !self.had_overturned {
-            let mut next = simulation.demands(support, fractions);
-            next.go_on(&self.demands);
-            self.before = Some(self.so_far());
-            self.demands = next;
-        }
-    }
-
-    /// Returns the shocks of a sequence, none of a single record, and the demands of all.
-    pub(super) fn finish(mut self, simulation: &Simulation) -> (Vec<Shock>, Demands) {
-        if !self.ended.is_empty() {
-            self.end(simulation);
-        }
-        let demands = self.so_far();
-        (self.ended, demands)
-    }
-
-    /// Returns the demands of this shock and of all before.
-    fn so_far(&self) -> Demands {
-        let Some(mut all) = self.before.clone() else { return self.demands.clone() };
-        all.add(&self.demands);
-        all
-    }
-
-    fn end(&mut self, simulation: &Simulation) {
-        let (progress, u_ins) = (simulation.progress(), simulation.wall().body().instability);
-        let residual = progress.state.displacement;
-        let overturned = progress.state.overturned;
+/// Runs a scene once more, shock by shock of its sequence; returns none of a single motion. `simulation` is
+/// at the start, and `motion` that of the supports.
+pub(super) fn shocks(
+    scene: &Scene,
+    mut simulation: Simulation,
+    motion: Option<&Excitation>,
+) -> Result<Vec<Shock>, RunError> {
+    let Some(record) = scene.excitation.as_ref().map(Excitation::bottom) else { return Ok(Vec::new()) };
+    let later = record.shocks().into_iter().skip(1).map(|shock| shock.start as f64 * record.step());
+    let mut ends: Vec<f64> = later.filter(|start| *start < scene.stop_time).collect();
+    ends.extend((!ends.is_empty()).then_some(scene.stop_time));
+    let next = |end: f64| {
+        let Progress { time: start, state, .. } = *simulation.progress();
+        let state = State { peaks: Peaks::at(state.displacement), ..state };
+        simulation.restore(Progress { state, ..*simulation.progress() });
+        let mut demands = simulation.demands(segment_of(motion, start, 0.0).from, &scene.thresholds);
+        simulation.advance_to(end, motion, Some(&mut demands))?;
+        let (state, u_ins) = (simulation.progress().state, simulation.wall().body().instability);
+        let (residual, overturned) = (state.displacement, state.overturned);
         let falls = overturned && residual.abs() >= u_ins.of(residual);
-        let ratio = |u: f64| u.abs() / u_ins.of(u);
-        let extremes = self.demands.displacement;
-        let [highest, lowest] = [extremes.highest.value, extremes.lowest.value];
-        let peak = [extremes.largest().value.abs(), ratio(highest).max(ratio(lowest))];
-        let [u_max, u_ratio_max] = reported_peak(peak, u_ins.of(residual), falls);
-        let demands = (!self.had_overturned).then(|| self.demands.clone());
-        let (start, end) = (self.start, progress.time);
-        self.ended.push(Shock { start, end, u_max, u_ratio_max, overturned, falls, residual, demands });
-    }
+        let [u_max, u_ratio_max] = state.reported_peak(u_ins, falls);
+        Ok(Shock { start, end, u_max, u_ratio_max, overturned, falls, residual, demands })
+    };
+    ends.into_iter().map(next).collect()
 }

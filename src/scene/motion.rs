@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use files::{Place, tables};
 use ground_motion::{
-    Acceleration, DEFAULT_PAUSE, Format, GroundMotion, GroundMotionError, Pulse, RecordOptions, Shape,
-    SyntheticMotion, Unit,
+    Acceleration, DEFAULT_PAUSE, Format, GroundMotion, GroundMotionError, Pulse, Record, RecordOptions,
+    Shape, SyntheticMotion, Unit, file_name,
 };
 use toml::Spanned;
 
@@ -144,8 +144,9 @@ fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded,
     let mut notes = Vec::new();
     let bottom = scaled(trim(source(spec, folder, &mut notes)?, spec)?, spec.scale, spec.pga)?;
     let top = spec.top.as_ref().map(|top| {
-        let record = read_record(top, &RecordOptions::default(), None, folder, &mut notes)?;
-        top.scaled(trim(record, spec)?)
+        let record = top.read(&RecordOptions::default(), folder)?;
+        note(&mut notes, top, &record);
+        scaled(trim(record.motion, spec)?, top.scale, top.pga)
     });
     let top = top.transpose()?;
     let peak = match &top {
@@ -157,7 +158,7 @@ fn loaded(spec: &MotionTable, folder: &Path, has_floors: bool) -> Result<Loaded,
     };
     let excitation = Excitation::new(bottom, top);
     notes.push(format!("{peak}, {} s", (1e4 * excitation.duration()).round() / 1e4));
-    let files = spec.record.iter().flat_map(|shocks| shocks.iter()).chain(&spec.top);
+    let files = spec.record.iter().flat_map(|shocks| &shocks.0).chain(&spec.top);
     let records = files.map(|file| folder.join(&file.record)).collect();
     Ok(Loaded { excitation, tail, notes, records })
 }
@@ -167,10 +168,13 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
     let MotionTable { unit, step, format, .. } = *spec;
     let (column, channel) = (spec.column.clone(), spec.channel.clone());
     let options = RecordOptions { unit, step, column, channel, format };
+    if spec.pause.is_some() && spec.record.as_ref().is_none_or(|shocks| shocks.0.len() < 2) {
+        let message = "pause is the time between the records of a sequence; give record = [\"MAIN\", \
+                       \"AFTER\"] or leave it out";
+        return Err(Problem::Table(message.into()));
+    }
     if let Some(shocks) = &spec.record {
         found.push(("record", sequence(spec, shocks, &options, folder, notes)));
-    } else if spec.pause.is_some() {
-        return Err(Problem::Table(NO_SEQUENCE.into()));
     } else if options != RecordOptions::default() {
         let message = "unit, step, column, channel and format belong to a record; \
                        add record = \"FILE\" or leave them out";
@@ -217,10 +221,6 @@ fn source(spec: &MotionTable, folder: &Path, notes: &mut Vec<String>) -> Result<
     motion
 }
 
-/// What is wrong with a pause where there is no sequence.
-const NO_SEQUENCE: &str = "pause is the time between the records of a sequence; give record = [\"MAIN\", \
-                           \"AFTER\"] or leave it out";
-
 /// Reads the record of a scene, or its sequence of several.
 fn sequence(
     spec: &MotionTable,
@@ -229,42 +229,21 @@ fn sequence(
     folder: &Path,
     notes: &mut Vec<String>,
 ) -> Result<GroundMotion, Problem> {
-    let is_one = shocks.len() == 1;
-    let of_one = [
-        ("from", spec.from.is_some(), "cut the file of its record"),
-        ("to", spec.to.is_some(), "cut the file of its record"),
-        ("fingerprint", spec.fingerprint.is_some(), "give it in the table of its record"),
-        ("top", spec.top.is_some(), "a sequence moves both supports alike: leave it out"),
-    ];
-    if let Some((key, _, remedy)) = of_one.iter().find(|(_, is_given, _)| *is_given && !is_one) {
-        return Err(Problem::Table(format!("{key} does not go with a sequence of records; {remedy}")));
-    }
-    if is_one && spec.pause.is_some() {
-        return Err(Problem::Table(NO_SEQUENCE.into()));
-    }
-    let mut motions = Vec::with_capacity(shocks.len());
-    for own in shocks.iter() {
-        let motion = read_record(own, options, spec.fingerprint.as_deref(), folder, notes)?;
-        motions.push(own.scaled(motion)?);
+    let mut shocks = shocks.clone();
+    for own in &mut shocks.0 {
+        own.fingerprint = own.fingerprint.take().or_else(|| spec.fingerprint.clone());
     }
     let pause = spec.pause.unwrap_or(DEFAULT_PAUSE);
-    let motion = GroundMotion::sequence(&motions, pause)?;
-    notes.extend((!is_one).then(|| format!("{pause} s between them, in steps of {} s", motion.step())));
+    let motion = shocks.read(options, pause, folder, |table, record| note(notes, table, record))?;
+    let joined = || format!("{pause} s between them, in steps of {} s", motion.step());
+    notes.extend((shocks.0.len() > 1).then(joined));
     Ok(motion)
 }
 
-/// Reads a record and notes what it is.
-fn read_record(
-    table: &RecordTable,
-    common: &RecordOptions,
-    fingerprint: Option<&str>,
-    folder: &Path,
-    notes: &mut Vec<String>,
-) -> Result<GroundMotion, Problem> {
-    let record = table.read(common, fingerprint, folder)?;
-    notes.push(format!("record {} ({})", table.name(), record.format.description()));
+/// Notes what a record is.
+fn note(notes: &mut Vec<String>, table: &RecordTable, record: &Record) {
+    notes.push(format!("record {} ({})", file_name(&table.record), record.format.description()));
     notes.extend(record.check().warnings.iter().map(ToString::to_string));
-    Ok(record.motion)
 }
 
 fn trim(motion: GroundMotion, spec: &MotionTable) -> Result<GroundMotion, GroundMotionError> {

@@ -1,15 +1,11 @@
 //! Records of a motion: one, or several one after the other.
 
-use std::fmt;
-use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
 use files::{Described, Schema, Tables, list, tables, text, with};
 use ground_motion::{
     Acceleration, Format, GroundMotion, GroundMotionError, Record, RecordOptions, Unit, read,
 };
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use toml::Value;
 
 tables! {
@@ -48,21 +44,8 @@ pub enum RecordProblem {
 }
 
 impl RecordTable {
-    /// Returns the name of the file.
-    pub fn name(&self) -> String {
-        self.record.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-    }
-
     /// Reads the record, in `folder` and not scaled, with `common` options where it states none.
-    ///
-    /// # Errors
-    /// [`RecordProblem`] of a file that cannot be read, or whose fingerprint is not the one stated.
-    pub fn read(
-        &self,
-        common: &RecordOptions,
-        fingerprint: Option<&str>,
-        folder: &Path,
-    ) -> Result<Record, RecordProblem> {
+    pub(super) fn read(&self, common: &RecordOptions, folder: &Path) -> Result<Record, RecordProblem> {
         let path = folder.join(&self.record);
         let options = RecordOptions {
             unit: self.unit.or(common.unit),
@@ -72,7 +55,7 @@ impl RecordTable {
             format: self.format.or(common.format),
         };
         let record = read(&path, &options)?;
-        let Some(expected) = self.fingerprint.as_deref().or(fingerprint) else { return Ok(record) };
+        let Some(expected) = &self.fingerprint else { return Ok(record) };
         let file = path.display();
         let bytes = std::fs::read(&path).map_err(|error| RecordProblem::Table(format!("{file}: {error}")))?;
         let found = self::fingerprint(&bytes);
@@ -83,14 +66,6 @@ impl RecordTable {
             "{file} has the fingerprint {found}, not {expected}: it is not the record this scene was made \
              with"
         )))
-    }
-
-    /// Scales a motion as the table states.
-    ///
-    /// # Errors
-    /// [`RecordProblem`] if it states both ways, or the motion cannot be scaled so.
-    pub fn scaled(&self, motion: GroundMotion) -> Result<GroundMotion, RecordProblem> {
-        scaled(motion, self.scale, self.pga)
     }
 }
 
@@ -116,67 +91,57 @@ pub(super) fn scaled(
 }
 
 /// Records one after the other: a file, a table, or a list of these.
-#[derive(Clone, Debug)]
-pub struct Shocks {
-    records: Vec<RecordTable>,
-    is_list: bool,
-}
+#[derive(Clone, Debug, serde::Deserialize)]
+#[serde(try_from = "Value")]
+pub struct Shocks(pub Vec<RecordTable>);
 
-impl Deref for Shocks {
-    type Target = [RecordTable];
-
-    fn deref(&self) -> &[RecordTable] {
-        &self.records
+impl Shocks {
+    /// Reads the records in `folder`, scales each, and joins them with a pause \[s\]. They have `common`
+    /// options where they state none. `seen` sees each record as it is read.
+    ///
+    /// # Errors
+    /// [`RecordProblem`].
+    pub fn read(
+        &self,
+        common: &RecordOptions,
+        pause: f64,
+        folder: &Path,
+        mut seen: impl FnMut(&RecordTable, &Record),
+    ) -> Result<GroundMotion, RecordProblem> {
+        let one = |table: &RecordTable| {
+            let record = table.read(common, folder)?;
+            seen(table, &record);
+            scaled(record.motion, table.scale, table.pga)
+        };
+        let shocks = self.0.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+        Ok(GroundMotion::sequence(&shocks, pause)?)
     }
 }
 
-impl<'de> Deserialize<'de> for Shocks {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct OneOrMany;
+/// What stands for anything else in the words of serde.
+const EXPECTED: &str = "invalid type, expected a path in quotes, or a list such as [\"MAIN\", \"AFTER\"]";
 
-        impl<'de> Visitor<'de> for OneOrMany {
-            type Value = Shocks;
+impl TryFrom<Value> for Shocks {
+    type Error = String;
 
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str("a path in quotes, or a list such as [\"MAIN\", \"AFTER\"]")
-            }
-
-            fn visit_str<E: Error>(self, file: &str) -> Result<Shocks, E> {
-                let record = RecordTable { record: file.into(), ..RecordTable::default() };
-                Ok(Shocks { records: vec![record], is_list: false })
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Shocks, A::Error> {
-                let record = RecordTable::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(Shocks { records: vec![record], is_list: false })
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Shocks, A::Error> {
-                let mut records = Vec::new();
-                while let Some(Shocks { records: own, is_list }) = seq.next_element()? {
-                    if is_list {
-                        return Err(A::Error::custom(
-                            "a list within a list; expected a record file or a table",
-                        ));
-                    }
-                    records.extend(own);
-                }
-                if records.is_empty() {
-                    return Err(A::Error::custom("an empty list; expected at least one record file"));
-                }
-                Ok(Shocks { records, is_list: true })
-            }
+    fn try_from(value: Value) -> Result<Self, String> {
+        let one = |value: Value| match value {
+            Value::String(file) => Ok(RecordTable { record: file.into(), ..RecordTable::default() }),
+            Value::Table(_) => value.try_into().map_err(|error: toml::de::Error| error.message().to_owned()),
+            _ => Err(EXPECTED.to_owned()),
+        };
+        match value {
+            Value::Array(items) if !items.is_empty() => items.into_iter().map(one).collect(),
+            value => one(value).map(|record| vec![record]),
         }
-
-        deserializer.deserialize_any(OneOrMany)
+        .map(Self)
     }
 }
 
 impl Described for Shocks {
     fn describe(key: &str, tables: &mut Tables) -> Schema {
-        let one =
-            vec![Value::Table(text("A record file.")), Value::Table(RecordTable::describe(key, tables))];
-        let several = with(list(with(Schema::new(), "anyOf", one.clone())), "minItems", 1);
-        with(Schema::new(), "anyOf", [one, vec![Value::Table(several)]].concat())
+        let one = [text("A record file."), RecordTable::describe(key, tables)].map(Value::Table).to_vec();
+        let several = Value::Table(list(with(Schema::new(), "anyOf", one.clone())));
+        with(Schema::new(), "anyOf", [one, vec![several]].concat())
     }
 }

@@ -62,12 +62,6 @@ impl Excitation {
         self.top.as_ref()
     }
 
-    /// Returns the times at which the shocks of a sequence after the first one begin \[s\].
-    pub fn later_shocks(&self) -> Vec<f64> {
-        let later = self.bottom.shocks().into_iter().skip(1);
-        later.map(|shock| shock.start as f64 * self.bottom.step()).collect()
-    }
-
     /// Returns the shortest step of its records \[s\].
     pub fn step(&self) -> f64 {
         self.records().map(GroundMotion::step).fold(f64::INFINITY, f64::min)

@@ -49,12 +49,6 @@ impl Extremes {
         true
     }
 
-    fn add(&mut self, other: &Self) {
-        for Instant { value, time } in [other.highest, other.lowest] {
-            self.include(value, time);
-        }
-    }
-
     pub(super) fn include(&mut self, value: f64, time: f64) {
         if value > self.highest.value {
             self.highest = Instant { value, time };
@@ -239,38 +233,6 @@ impl Demands {
             half_cycles: 0,
             ties: ties.map(|tie| TieDemands::at(tie, Instant { value: tie_forces(tie), time })).collect(),
             excursion: None,
-        }
-    }
-
-    /// Goes on from the demands of a motion up to here: an excursion that has not ended, ties that have
-    /// broken.
-    pub(crate) fn go_on(&mut self, before: &Self) {
-        self.excursion = before.excursion;
-        for (tie, before) in self.ties.iter_mut().zip(&before.ties) {
-            if let (Some(own), Some(before)) = (&mut tie.yielding, &before.yielding) {
-                own.breaks = [0, 1].map(|side| before.breaks[side].or(own.breaks[side]));
-            }
-        }
-    }
-
-    /// Adds the demands of the motion that follows, which [go on](Self::go_on) from these.
-    pub(crate) fn add(&mut self, next: &Self) {
-        self.displacement.add(&next.displacement);
-        self.velocity.add(&next.velocity);
-        self.acceleration.add(&next.acceleration);
-        self.reaction_bottom.add(&next.reaction_bottom);
-        self.reaction_top.add(&next.reaction_top);
-        for (own, next) in self.crossings.iter_mut().zip(&next.crossings) {
-            own.first = own.first.or(next.first);
-        }
-        self.half_cycles += next.half_cycles;
-        self.excursion = next.excursion;
-        for (own, next) in self.ties.iter_mut().zip(&next.ties) {
-            if next.force.value > own.force.value {
-                own.force = next.force;
-            }
-            own.strength = own.strength.or(next.strength);
-            own.yielding = next.yielding;
         }
     }
 }

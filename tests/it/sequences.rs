@@ -46,8 +46,7 @@ fn walls() -> [String; 6] {
     ]
 }
 
-/// A record that is cut in two where it rests is the same run, bit for bit. At another step of the output the
-/// times of the samples are sums that round otherwise.
+/// A record that is cut in two where it rests is the same run, bit for bit, at any step of the output.
 #[test]
 fn a_record_cut_in_two_is_the_whole_record() {
     let (first, second) = (noise(1, 0.01, 2.5), noise(2, 0.01, 2.5));
@@ -57,6 +56,8 @@ fn a_record_cut_in_two_is_the_whole_record() {
     assert_eq!(cut.shocks().len(), 2);
     let mut standing = 0;
     for wall in walls() {
+        let [one, two] = [&whole, &cut].map(|motion| run(&wall, motion.clone(), Some(1e3)));
+        assert_eq!((one.samples, one.demands), (two.samples, two.demands));
         let [one, two] = [&whole, &cut].map(|motion| run(&wall, motion.clone(), None));
         assert_eq!(one.samples, two.samples, "{wall}");
         assert_eq!((one.residual, one.demands), (two.residual, two.demands.clone()), "{wall}");
@@ -69,10 +70,6 @@ fn a_record_cut_in_two_is_the_whole_record() {
         // the turning point is found twice
         let larger = two.shocks.iter().map(|shock| shock.u_max).fold(0.0, f64::max);
         assert!((larger - two.summary.u_max).abs() < 1e-12, "{wall}: {larger}");
-        assert!(two.shocks.iter().all(|shock| shock.demands.is_some()));
-        let coarse = run(&wall, cut.clone(), Some(1e3));
-        let difference = coarse.shocks[1].u_max - two.shocks[1].u_max;
-        assert!(difference.abs() < 1e-9, "{wall}: {difference:e}");
     }
     assert!(standing >= 4, "{standing} of 6 stand");
 }
@@ -85,13 +82,15 @@ fn a_tie_begins_the_second_shock_as_the_first_left_it() {
     let wall = tied(1.0, 0.0, 0.0);
     let response = run(&wall, both, None);
     let elongation = |shock: usize| {
-        let demands = response.shocks[shock].demands.as_ref().unwrap();
+        let demands = &response.shocks[shock].demands;
         demands.ties[0].yielding.unwrap().elongation.positive
     };
     // the same first shock by itself, with the pause after it
     let alone = run(&wall, motion(0.01, &[&first[..], &[0.0; 100]].concat()), None);
     let after_first = alone.demands.ties[0].yielding.unwrap().elongation.positive;
-    assert!(after_first > 1e-3 && elongation(0) == after_first, "{after_first} {}", elongation(0));
+    // a run of shocks takes other steps than the output, which round otherwise
+    let alike = (elongation(0) - after_first).abs() < 1e-12;
+    assert!(after_first > 1e-3 && alike, "{after_first} {}", elongation(0));
     assert!(elongation(1) >= elongation(0));
     let at_start = response.samples.partition_point(|sample| sample.time < response.shocks[1].start);
     assert_eq!(response.ties[0][at_start].elongation.positive, after_first);
@@ -137,7 +136,7 @@ fn scenes_state_sequences() {
     let g = 9.80665;
     let expected = [0.0, 1.0, 2.0, 0.5, -1.0, -0.5, 0.0, 0.0, 0.0, 2.0 * (0.1 * g), -2.0 * (0.2 * g), 0.0];
     assert_eq!((found.step(), found.samples()), (0.01, &expected[..]));
-    assert_eq!(scene.excitation.as_ref().unwrap().later_shocks(), [0.08]);
+    assert_eq!(found.shocks()[1].start, 8);
     assert_eq!(scene.files.len(), 2);
     assert!(scene.motion_notes.iter().any(|note| note.contains("0.02 s between them")));
     // one in a list is a record by itself
@@ -145,8 +144,8 @@ fn scenes_state_sequences() {
         ["record = [\"main.csv\"]\n", "record = \"main.csv\"\n"].map(|text| read(text).unwrap());
     assert_eq!(one.excitation, alone.excitation);
     for (motion, message) in [
-        ("record = []\n", "an empty list; expected at least one record file"),
-        ("record = [[\"main.csv\"]]\n", "a list within a list"),
+        ("record = []\n", "expected a path in quotes, or a list such as"),
+        ("record = [[\"main.csv\"]]\n", "expected a path in quotes, or a list such as"),
         ("record = [\"main.csv\", 3]\n", "expected a path in quotes, or a list such as"),
         ("record = [\"main.csv\", { scale = 2 }]\n", "record is missing"),
         ("record = [\"main.csv\", { record = \"after.csv\", factor = 2 }]\n", "unknown key \"factor\""),
@@ -155,12 +154,8 @@ fn scenes_state_sequences() {
         ("pause = 1\nricker = { amplitude = 1, frequency = 1, centre = 1 }\n", "pause is the time between"),
         ("pause = -1\nrecord = [\"main.csv\", \"after.csv\"]\n", "pause = -1"),
         ("pause = 1e6\nrecord = [\"main.csv\", \"after.csv\"]\n", "shorten the pause"),
-        ("from = 0.02\nrecord = [\"main.csv\", \"after.csv\"]\n", "from does not go with a sequence"),
-        ("top = { record = \"main.csv\" }\nrecord = [\"main.csv\", \"after.csv\"]\n", "top does not go with"),
-        (
-            "fingerprint = \"0\"\nrecord = [\"main.csv\", \"after.csv\"]\n",
-            "give it in the table of its record",
-        ),
+        ("from = 90\nrecord = [\"main.csv\", \"after.csv\"]\n", "the interval must lie within the record"),
+        ("fingerprint = \"0\"\nrecord = [\"main.csv\", \"after.csv\"]\n", "has the fingerprint"),
         ("record = [\"main.csv\", { record = \"after.csv\", fingerprint = \"0\" }]\n", "has the fingerprint"),
         ("record = [\"main.csv\", { record = \"after.csv\", scale = 1, pga = 1 }]\n", "exclude each other"),
     ] {
@@ -169,7 +164,7 @@ fn scenes_state_sequences() {
     }
     write("odd.csv", 0.0117, &[0.0, 1.0, 0.0]);
     let found = read("record = [\"main.csv\", \"odd.csv\"]\n").unwrap_err().to_string();
-    assert!(found.contains("0.0117 s and 0.02 s") && found.contains("resample"), "{found}");
+    assert!(found.contains("step [s] is 0.02") && found.contains("resample"), "{found}");
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
@@ -194,7 +189,7 @@ fn a_unit_runs_through_a_sequence() {
         // the unit sums its steps
         assert!((unit.real(V::U) - u).abs() < 1e-9, "{before}: {} and {u}", unit.real(V::U));
     }
-    let stretched = response.shocks[1].demands.as_ref().unwrap().ties[0].yielding.unwrap();
+    let stretched = response.shocks[1].demands.ties[0].yielding.unwrap();
     assert!(stretched.elongation.positive > 0.0);
     assert!((unit.real(V::TieElongation) - stretched.elongation.positive).abs() < 1e-9);
     assert_eq!(V::TieElongation.variable().name, "tie_elongation");

@@ -213,8 +213,8 @@ SEQUENCES = """
 models = ["CDC", "CDR"]
 intensity = { measure = "PGA" }
 levels = { method = "hunt", first = 0.1, increase = 0.1, top = 1.6, gap = 0.3, resolution = 0.1 }
-report = { fractions = [0.4, 1.0], resamples = 100 }
-sequence = { scale = "last", given = [0.1, 0.3] }
+report = { fractions = [0.4, 1.0], resamples = 100, given = [0.1, 0.3] }
+scaled_shocks = "last"
 
 [records]
 unit = "m/s2"

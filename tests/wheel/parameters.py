@@ -107,7 +107,6 @@ OPTIONS_OF_STUDY = (
     "models",
     "reliability",
     "report",
-    "sequence",
     "uncertain",
 )
 """Keys of a study that are typed."""

@@ -46,21 +46,6 @@ pub enum GroundMotionError {
     /// More samples than a motion may have.
     #[error("the motion would take {found:.0} samples, more than {limit}; shorten it or lower its frequency")]
     TooManySamples { found: f64, limit: usize },
-    /// Samples at which no shocks of a sequence can begin.
-    #[error("later shocks begin at the samples {found:?}; expected rising numbers above 0 and below {last}")]
-    Shocks { found: Vec<usize>, last: usize },
-    /// Steps of a sequence without a common part.
-    #[error(
-        "the steps {one} s and {other} s of a sequence have no common part of at least 1/{limit} of the \
-         shorter one; resample one of the records, such as to {one} s"
-    )]
-    Steps { one: f64, other: f64, limit: u32 },
-    /// More samples than a sequence may have.
-    #[error(
-        "the sequence would take {found:.0} samples of {step} s, more than {limit}; shorten the pause, or \
-         resample records so that their steps are equal"
-    )]
-    LongSequence { found: f64, limit: usize, step: f64 },
     /// A unit of acceleration that is not known.
     #[error("unknown unit of acceleration `{found}`; use one of m/s2, cm/s2 (or gal), mm/s2, g")]
     Unit { found: String },
@@ -88,7 +73,7 @@ impl GroundMotionError {
     /// Returns the key of the value that the error is about, as scenes and options of records have it.
     pub fn key(&self) -> Option<&'static str> {
         match self {
-            Self::Step { .. } | Self::Steps { .. } => Some("step"),
+            Self::Step { .. } => Some("step"),
             Self::Factor { .. } => Some("scale"),
             Self::Peak { .. } | Self::NoPeak { .. } | Self::Acceleration { .. } => Some("pga"),
             Self::Trim { .. } => Some("from"),
@@ -100,8 +85,7 @@ impl GroundMotionError {
             Self::Format { .. } => Some("format"),
             Self::Channel { .. } => Some("channel"),
             Self::Io { .. } | Self::Content { .. } => Some("record"),
-            Self::LongSequence { .. } => Some("pause"),
-            Self::TooFewSamples { .. } | Self::NotFinite { .. } | Self::Shocks { .. } => None,
+            Self::TooFewSamples { .. } | Self::NotFinite { .. } => None,
         }
     }
 }

@@ -77,6 +77,11 @@ pub fn shown_path(path: &Path) -> String {
     path.to_string_lossy().chars().map(shown).collect()
 }
 
+/// Returns the name of a file without its folder.
+pub fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
 /// Returns the text of bytes in UTF-8; `what` says in messages what it should be. Bytes in UTF-16, and those
 /// of Windows-1252, in which Excel saves CSV, are named for what they are.
 ///

@@ -67,7 +67,7 @@ pub use acceleration::Acceleration;
 pub use check::Check;
 pub use companion::{is_companion, is_listed};
 pub use error::GroundMotionError;
-pub use file::{MAX_FILE_BYTES, escapes, read_file, shown_path, utf8_text};
+pub use file::{MAX_FILE_BYTES, escapes, file_name, read_file, shown_path, utf8_text};
 pub use format::Format;
 pub use motion::GroundMotion;
 pub use options::RecordOptions;

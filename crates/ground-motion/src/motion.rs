@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, check_parameter};
 
 /// An acceleration history with a uniform step; sample i is at the time i · step, the first at zero.
 ///
@@ -62,10 +62,9 @@ impl GroundMotion {
     /// # Errors
     /// If they are not.
     pub fn with_later(self, later: &[usize]) -> Result<Self, GroundMotionError> {
-        let last = self.samples.len() - 1;
-        if ![&[0], later, &[last]].concat().is_sorted_by(|a, b| a < b) {
-            return Err(GroundMotionError::Shocks { found: later.to_vec(), last });
-        }
+        let rises = [&[0], later, &[self.samples.len() - 1]].concat().is_sorted_by(|a, b| a < b);
+        let limit = "those of samples that rise from above 0 to below the last one";
+        check_parameter(rises, "number of shocks after the first one", later.len() as f64, limit)?;
         Ok(Self { later: (!later.is_empty()).then(|| later.into()), ..self })
     }
 
@@ -147,7 +146,7 @@ impl GroundMotion {
     }
 
     /// Cuts out the part from the sample nearest to `from` to the one nearest to `to` (s); it starts again at
-    /// time zero.
+    /// time zero. The shocks of a sequence that begin in it remain.
     ///
     /// # Errors
     /// If the interval does not lie within the record or holds fewer than two samples.
@@ -157,8 +156,10 @@ impl GroundMotion {
         if !(first >= 0.0 && first < end && end < self.samples.len() as f64) {
             return Err(GroundMotionError::Trim { from, to, duration: self.duration() });
         }
-        let samples = &self.samples[floor_index(first)..=floor_index(end)];
-        Ok(Self { step: self.step, samples: samples.into(), later: None })
+        let [first, end] = [first, end].map(floor_index);
+        let later = self.shocks().into_iter().filter(|shock| first < shock.start && shock.start < end);
+        let later: Vec<_> = later.map(|shock| shock.start - first).collect();
+        Self::new(self.step, self.samples[first..=end].to_vec())?.with_later(&later)
     }
 }
 

@@ -10,7 +10,7 @@ const MOST_PARTS: u32 = 100;
 /// Relative difference up to which steps are equal: single precision has 6e-8.
 const STEP_ROUNDING: f64 = 1e-6;
 /// Most samples of a sequence, of 8 bytes each.
-const MOST_SAMPLES: usize = 20_000_000;
+const MOST_SAMPLES: f64 = 2e7;
 
 impl GroundMotion {
     /// Joins shocks to one motion: each begins `pause` (s), in whole steps and at least one, after the last
@@ -35,16 +35,14 @@ impl GroundMotion {
     /// If there is no shock, if the pause is negative or not finite, if the steps have no common part of at
     /// least a hundredth of the shortest one, or the sequence has more than 2·10⁷ samples.
     pub fn sequence(shocks: &[Self], pause: f64) -> Result<Self, GroundMotionError> {
-        check_parameter(!shocks.is_empty(), "number of records in a sequence", 0.0, "at least 1")?;
         check_parameter(pause >= 0.0 && pause.is_finite(), "pause", pause, "from 0 s on and finite")?;
         let step = common_step(shocks)?;
         let parts = |shock: &Self| (shock.step() / step).round();
         let still = (pause / step - STEP_ROUNDING).ceil().max(1.0) - 1.0;
         let length = |shock: &Self| parts(shock) * (shock.samples().len() - 1) as f64 + 1.0;
-        let found = shocks.iter().map(length).sum::<f64>() + still * (shocks.len() - 1) as f64;
-        if found > MOST_SAMPLES as f64 {
-            return Err(GroundMotionError::LongSequence { found, limit: MOST_SAMPLES, step });
-        }
+        let found = shocks.iter().map(length).sum::<f64>() + still * shocks.len().saturating_sub(1) as f64;
+        let limit = "at most 2e7; shorten the pause, or resample records so that their steps are equal";
+        check_parameter(found <= MOST_SAMPLES, "number of samples of a sequence", found, limit)?;
         let (mut samples, mut later) = (Vec::new(), Vec::new());
         for shock in shocks {
             if !samples.is_empty() {
@@ -61,9 +59,7 @@ impl GroundMotion {
         }
         Self::new(step, samples)?.with_later(&later)
     }
-}
 
-impl GroundMotion {
     /// Splits off the last shock of a sequence, with the sample before it, which both parts have. `None` of a
     /// single record, and where that sample is not zero.
     pub fn split_last(&self) -> Option<[Self; 2]> {
@@ -76,18 +72,12 @@ impl GroundMotion {
 
 /// Returns the longest step that divides those of all shocks.
 fn common_step(shocks: &[GroundMotion]) -> Result<f64, GroundMotionError> {
-    let shortest = shocks.iter().map(GroundMotion::step).fold(f64::INFINITY, f64::min);
-    let misfit = |step: f64| {
-        let is_divided = |shock: &&GroundMotion| {
-            let parts = shock.step() / step;
-            (parts - parts.round()).abs() <= STEP_ROUNDING * parts
-        };
-        shocks.iter().find(|shock| !is_divided(shock))
-    };
-    let steps = || (1..=MOST_PARTS).map(|parts| shortest / f64::from(parts));
-    steps().find(|step| misfit(*step).is_none()).ok_or_else(|| GroundMotionError::Steps {
-        one: shortest,
-        other: misfit(shortest).map_or(shortest, GroundMotion::step),
-        limit: MOST_PARTS,
-    })
+    let steps = || shocks.iter().map(GroundMotion::step);
+    let [one, value] = [steps().fold(f64::INFINITY, f64::min), steps().fold(0.0, f64::max)];
+    let is_whole = |parts: f64| (parts - parts.round()).abs() <= STEP_ROUNDING * parts;
+    let divides = |step: &f64| steps().all(|of| is_whole(of / step));
+    let mut divided = (1..=MOST_PARTS).map(|parts| one / f64::from(parts));
+    let limit =
+        "a multiple of a part, down to 1/100, of the shortest step of its sequence; resample a record";
+    divided.find(divides).ok_or(GroundMotionError::Parameter { name: "step [s]", value, limit })
 }

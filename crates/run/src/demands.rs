@@ -110,18 +110,11 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
 /// What a shock did to the wall, and to its ties up to then.
 fn of_shock(shock: &Shock) -> String {
     let Shock { start, u_max, u_ratio_max, residual, .. } = shock;
-    let largest = format!("|u| {:.2} mm, {u_ratio_max:.4} u_ins", 1000.0 * u_max);
-    let largest = if shock.demands.is_some() { largest } else { "overturned before".to_owned() };
-    let end = if shock.falls {
-        "falls".to_owned()
-    } else {
-        format!("u at its end {} mm", figure(1000.0 * residual))
-    };
-    let mut text = format!("from {start:.3} s: {largest}, {end}");
-    for yielding in shock.demands.iter().flat_map(|demands| &demands.ties).filter_map(|tie| tie.yielding) {
-        let _ = write!(text, ", tie stretched {}", stretched(&yielding));
-    }
-    text
+    let end =
+        if shock.falls { "fallen".to_owned() } else { format!("u {} mm at its end", figure(1e3 * residual)) };
+    let yielding = shock.demands.ties.iter().filter_map(|tie| tie.yielding);
+    let ties: Vec<_> = yielding.map(|one| format!(", tie stretched {}", stretched(&one))).collect();
+    format!("from {start:.3} s: |u| {:.2} mm, {u_ratio_max:.4} u_ins, {end}{}", 1e3 * u_max, ties.concat())
 }
 
 /// The largest force of a tie with the time at which it reached its strength, and how far it has yielded.

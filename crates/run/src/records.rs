@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use files::{FileError, Place, tables};
 use ground_motion::{
-    DEFAULT_PAUSE, Format, GroundMotion, GroundMotionError, RecordOptions, SyntheticMotion, Unit, escapes,
-    is_listed, read,
+    DEFAULT_PAUSE, Format, GroundMotion, GroundMotionError, Record, RecordOptions, SyntheticMotion, Unit,
+    escapes, file_name, is_listed, read,
 };
-use rocking_wall::scene::{LONGEST_TAIL, RecordProblem, RecordTable, SceneError, Shocks};
+use rocking_wall::scene::{LONGEST_TAIL, RecordTable, SceneError, Shocks};
 use toml::Spanned;
 
 use crate::selection::{self, ListedFile};
@@ -131,13 +131,12 @@ pub fn records(
         let message = "component is that of a list; name one by selection = \"…\", or leave component out";
         return Err(place.error(component.span(), message));
     }
-    if let Some(single) = spec.sequences.iter().find(|shocks| shocks.get_ref().len() < 2) {
-        let message = "sequences: a sequence is a list of at least two records; put a single one in files";
-        return Err(place.error(single.span(), message));
-    }
-    if let (Some(pause), []) = (&spec.pause, &spec.sequences[..]) {
-        let message = "pause is the time between the records of sequences = [[...], ...]; leave it out";
-        return Err(place.error(pause.span(), message));
+    let single = spec.sequences.iter().find(|shocks| shocks.get_ref().0.len() < 2).map(Spanned::span);
+    let unused = spec.pause.as_ref().filter(|_| spec.sequences.is_empty()).map(Spanned::span);
+    if let Some(span) = single.or(unused) {
+        let message = "a sequence is a list of two records or more, between which is the pause; put a single \
+                       record in files, and leave pause out where there is no sequence";
+        return Err(place.error(span, message));
     }
     let sequences =
         spec.sequences.iter().map(|one| (one.get_ref().clone(), place.line(one.span()))).collect();
@@ -229,26 +228,8 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
 impl RecordsEntry {
     /// Returns the files of the sequences.
     pub fn sequence_files(&self, folder: &Path) -> Vec<PathBuf> {
-        let records = self.sequences.iter().flat_map(|(shocks, _)| shocks.iter());
+        let records = self.sequences.iter().flat_map(|(shocks, _)| &shocks.0);
         records.map(|record| folder.join(&record.record)).collect()
-    }
-
-    /// Reads a sequence.
-    fn sequence(
-        &self,
-        shocks: &Shocks,
-        folder: &Path,
-        warnings: &mut Vec<String>,
-    ) -> Result<NamedRecord, RecordProblem> {
-        let mut motions = Vec::with_capacity(shocks.len());
-        for table in shocks.iter() {
-            let record = table.read(&self.options, None, folder)?;
-            let path = folder.join(&table.record);
-            warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
-            motions.push(table.scaled(record.motion)?);
-        }
-        let names: Vec<_> = shocks.iter().map(RecordTable::name).collect();
-        Ok(NamedRecord::new(names.join(" + "), GroundMotion::sequence(&motions, self.pause)?))
     }
 }
 
@@ -264,11 +245,9 @@ pub fn all_records(
     study: &str,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<NamedRecord>, SceneError> {
-    let short =
-        |path: &Path| path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut uses: BTreeMap<String, BTreeSet<&Path>> = BTreeMap::new();
     for RecordFile { path, .. } in files {
-        uses.entry(short(path)).or_default().insert(path);
+        uses.entry(file_name(path)).or_default().insert(path);
     }
     let mut records = Vec::with_capacity(files.len() + entry.synthetic.len());
     for RecordFile { path, is_named, listed } in files {
@@ -286,15 +265,21 @@ pub fn all_records(
         }
         warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
         let motion = if own.factor == 1.0 { record.motion } else { record.motion.scaled(own.factor) };
-        let name = short(path);
+        let name = file_name(path);
         // files with equal names go by their whole paths
         let name = if uses[&name].len() > 1 { path.display().to_string() } else { name };
         let name = own.stripe.map_or(name.clone(), |stripe| format!("{name} (stripe {})", stripe + 1));
         records.push(NamedRecord { listed: own, ..NamedRecord::new(name, motion) });
     }
     for (shocks, line) in &entry.sequences {
-        let refused = |problem: RecordProblem| FileError::on_line(study, *line, problem.to_string());
-        records.push(entry.sequence(shocks, folder, warnings).map_err(refused)?);
+        let warn = |table: &RecordTable, record: &Record| {
+            let file = folder.join(&table.record);
+            warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", file.display())));
+        };
+        let motion = shocks.read(&entry.options, entry.pause, folder, warn);
+        let motion = motion.map_err(|problem| FileError::on_line(study, *line, problem.to_string()))?;
+        let names: Vec<_> = shocks.0.iter().map(|table| file_name(&table.record)).collect();
+        records.push(NamedRecord::new(names.join(" + "), motion));
     }
     if records.is_empty() && !files.is_empty() && entry.synthetic.is_empty() {
         let reason = "records: all are vertical, and records shake walls sideways; name horizontal ones";

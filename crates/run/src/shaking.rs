@@ -9,7 +9,7 @@ use record::{BatchRun, Blocks, Forcing, Outcome, RecordSolver, RunEnd, RunStart,
 use rocking_wall::scene::{Floors, SceneError};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{SolverError, State};
-use rocking_wall::wall::{Body, Support, Wall};
+use rocking_wall::wall::{Body, Support};
 
 use crate::free_motion::peak_is_final;
 
@@ -67,22 +67,9 @@ impl<'a> Shaking<'a> {
         Self { solver, blocks: OnceLock::new(), record, tail, before: None }
     }
 
-    /// Returns the wall under another record of the same step, without free vibration.
-    pub fn under<'r>(&self, record: &'r GroundMotion) -> Shaking<'r>
-    where
-        'a: 'r,
-    {
-        Shaking::new(self.solver, record, 0.0)
-    }
-
     /// Lets its runs go on from a state, such as the one that a motion before has left.
     pub fn go_on_from(&mut self, state: State) {
         self.before = Some(state);
-    }
-
-    /// Returns the wall.
-    pub fn wall(&self) -> &Wall {
-        self.solver.motion().wall()
     }
 
     /// Runs the record multiplied by each of some factors, from u and u̇ at its start \[m, m/s\]. The time of

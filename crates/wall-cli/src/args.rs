@@ -222,7 +222,7 @@ fn standard_input(path: &Path) -> Result<Option<Vec<u8>>> {
 
 /// Returns the name of a record's file without its folder.
 pub(crate) fn short_name(path: &Path) -> String {
-    named(path).file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+    ground_motion::file_name(named(path))
 }
 
 /// What the project's synthetic motion is called.

@@ -72,7 +72,7 @@ class StudyResults(Tabular):
     of ln θ at collapse, the regression ln D = a + b ln IM with its σ, and p-values of the slopes of residuals
     over duration, magnitude and distance. None without `compare` in `intensity`."""
     given: Table | None
-    """Fragilities of the last shock by the state of the wall before it; None without given in sequence."""
+    """Fragilities of the last shock by the state of the wall before it; None without `given`."""
     records: Table | None
     """Factors and weights of the records; None where no list states any, and no weights are given."""
     ties: Table | None

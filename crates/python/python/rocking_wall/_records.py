@@ -147,11 +147,10 @@ class Record:
         self.a.flags.writeable = False
 
     def __eq__(self, other: object) -> bool:
-        """Whether both have the same step, samples and shocks; names do not count."""
+        """Whether both have the same step and samples; names do not count."""
         if not isinstance(other, Record):
             return NotImplemented
-        is_like = self.dt == other.dt and self.later == other.later
-        return is_like and np.array_equal(self.a, other.a)
+        return self.dt == other.dt and np.array_equal(self.a, other.a)
 
     def __hash__(self) -> int:
         # zeros of both signs are equal
@@ -401,17 +400,12 @@ def read_record(
 
 
 def sequence(records: Sequence[Record], *, pause: float = 10.0, name: str | None = None) -> Record:
-    """Joins records to one, such as a main shock and an aftershock: a wall goes on from one to the next.
+    """Joins records to one, from which a wall goes on to the next: each begins `pause` [s] after the last
+    sample of the one before. A `Response` has the `shocks`. Raises `ValueError` for steps without a common
+    part of at least a hundredth of the shortest; records stay the same motions at that step.
 
-    Each begins `pause` [s], in whole steps and at least one, after the last sample of the one before. The
-    step is the longest that divides those of all; a record is linear between its samples, so that it stays
-    the same motion. A `Response` has the `shocks`, each with its demands.
-
-    Raises `ValueError` for steps without a common part of at least a hundredth of the shortest.
-
-    >>> both = sequence([sine_cycle(2.0, 1.0), 0.5 * sine_cycle(2.0, 1.0)], pause=5)
-    >>> both.duration, len(both.later)
-    (7.0, 1)
+    >>> sequence([sine_cycle(2.0, 1.0)] * 2, pause=5).duration
+    7.0
     """
     given = listed(records)
     motion = _native.sequence([motion_of(record, "records") for record in given], pause)

@@ -53,7 +53,7 @@ class TieDemands(TypedDict):
     tie_break_time_negative: NotRequired[float | None]
 
 
-class ShockDemands(TypedDict):
+class Demands(TypedDict):
     """Demands of a motion on a wall, up to overturning; in SI units.
 
     A wall with a tie has the peak of its force, and when that first reached the strength given. A tie that
@@ -68,6 +68,7 @@ class ShockDemands(TypedDict):
     reaction_top: Extremes
     thresholds: list[Threshold]
     half_cycles: int
+    residual: NotRequired[float]
     tie_force: NotRequired[Instant]
     tie_strength: NotRequired[Instant | None]
     tie_elongation: NotRequired[float]
@@ -77,18 +78,8 @@ class ShockDemands(TypedDict):
     ties: NotRequired[list[TieDemands]]
 
 
-class Demands(ShockDemands):
-    """Demands of a run, and u at its end [m]."""
-
-    residual: float
-
-
 class Shock(TypedDict):
-    """A shock of a sequence, from its first sample to that of the next or to the end of the run, in SI units.
-
-    `u_max` and `u_ratio_max` are those of this shock, up to overturning. `overturned` and `falls` tell of the
-    wall by its end, `residual` is u there. `demands` are None after the shock in which the wall overturns.
-    """
+    """A shock of a sequence, up to the first sample of the next; what ties remember is that of all so far."""
 
     start: float
     end: float
@@ -97,7 +88,7 @@ class Shock(TypedDict):
     overturned: bool
     falls: bool
     residual: float
-    demands: ShockDemands | None
+    demands: Demands
 
 
 @dataclass(frozen=True, eq=False, repr=False)

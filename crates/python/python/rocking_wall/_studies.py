@@ -69,7 +69,7 @@ class Study:
         tail: float | None = None,
         collapse_is: Literal["exceeds", "falls"] | None = None,
         polarity: Polarity | None = None,
-        sequence: options.Sequences | None = None,
+        scaled_shocks: Literal["all", "last"] | None = None,
         report: options.Report | None = None,
         classes: Sequence[options.Class] | None = None,
         hazard: options.Hazard | None = None,
@@ -99,8 +99,7 @@ class Study:
             those that do not come back ("falls").
         :param polarity: The signs with which records are run: "as_recorded" (the default), "reversed", "both"
             as two records, or "worst", at each level the one that demands more of the wall.
-        :param sequence: What the levels scale of records made by `rocking_wall.sequence`, and fragilities by
-            the state before the last shock, such as `{"scale": "last", "given": [0.1, 0.4]}`.
+        :param scaled_shocks: What the levels scale of a `sequence`: "all" (the default) or the "last" shock.
         :param report: Limit states and bootstrap, such as `{"fractions": [0.4, 1.0]}`.
         :param classes: Classes of walls, such as `{"name": "all", "walls": ["low", "high"]}`.
         :param hazard: The hazard of the site, such as `{"points": [[0.1, 0.01], [0.4, 4e-4]]}` (intensities
@@ -118,7 +117,7 @@ class Study:
         parts |= {"title": title, "intensity": intensity, "tail": tail, "report": report}
         parts |= {"classes": classes, "collapse_is": collapse_is, "hazard": hazard, "check": check}
         parts |= {"reliability": reliability, "uncertain": uncertain, "polarity": polarity}
-        parts |= {"sequence": sequence}
+        parts |= {"scaled_shocks": scaled_shocks}
         given = {name: part for name, part in parts.items() if part is not None}
         if path is None:
             missing = [name for name in ("walls", "records", "models", "levels") if name not in given]

@@ -432,6 +432,8 @@ class Report(TypedDict, total=False):
     - collapse: Which exceedance of a record counts where a wall stands again above it: the first, the last,
       or at each level the fraction of the records; by default the fraction on a grid, else the first.
     - fractions: Limit states as fractions of u_ins; default [0.1, 0.4, 0.6, 1.0].
+    - given: Fractions of u_ins: fragilities of the last shock are told for the walls whose |u| has exceeded
+      each in the shocks before.
     - loss_ratios: Loss as a part of the value of a wall, for each of the fractions (-).
     - modelling_uncertainty: Dispersion due to modelling, in all probabilities that are taken from fragilities
       [-], at least 0, at most 2; default 0.
@@ -444,6 +446,7 @@ class Report(TypedDict, total=False):
     beta: Literal["own", "common", "ordered"]
     collapse: Literal["first", "last", "fraction"]
     fractions: Sequence[float]
+    given: Sequence[float]
     loss_ratios: Sequence[float]
     modelling_uncertainty: float
     reference: str

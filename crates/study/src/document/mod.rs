@@ -21,7 +21,6 @@ mod hazard;
 mod levels;
 mod model;
 mod report;
-mod sequence;
 mod uncertain;
 
 use files::{Schema, TomlFile, file_schema, names, tables, with};
@@ -41,7 +40,6 @@ use hazard::{HazardTable, hazard};
 use levels::{IntensityTable, LevelsTable, levels, measure, stripes};
 use model::{model, model_schema};
 use report::{ClassTable, ReliabilityTable, ReportTable, TARGET, report};
-use sequence::{SequencesTable, sequence};
 use uncertain::{UncertainTable, uncertain};
 
 pub use compare::CompareEntry;
@@ -104,14 +102,16 @@ tables! {
         /// the one that demands more of the wall.
         #[key(default = "as_recorded")]
         polarity: Option<Polarity>,
+        /// What the levels scale of records that are sequences: all shocks, or the last one, the others being
+        /// as they are.
+        #[key(default = "all")]
+        scaled_shocks: Option<Scaled>,
         /// Intensity measure by which records are scaled.
         intensity: Option<Spanned<IntensityTable>>,
         /// Levels of intensity.
         levels: Spanned<LevelsTable>,
         /// Records from files, and synthetic ones after them.
         records: Option<Spanned<RecordsTable>>,
-        /// Sequences of records: what the levels scale, and fragilities by the state of the walls.
-        sequence: Option<Spanned<SequencesTable>>,
         /// What the results show.
         report: Option<Spanned<ReportTable>>,
         /// What a study of reliability asks.
@@ -180,9 +180,7 @@ impl StudyFile {
                            such as \"hunt\"";
             return Err(place.error(word.span(), message).into());
         }
-        let (scaled, given) = sequence(document.sequence.as_ref(), &levels, place)?;
-        let mut report = report(document.report.as_ref(), &document.classes, &models, &levels, place)?;
-        report.given = given;
+        let scaled = document.scaled_shocks.unwrap_or_default();
         Ok(Self {
             title: document.title.unwrap_or_else(|| "Incremental dynamic analysis".into()),
             walls,
@@ -200,7 +198,7 @@ impl StudyFile {
             hazard: document.hazard.as_ref().map(|table| hazard(table, &measure, place)).transpose()?,
             uncertain: document.uncertain.as_ref().map(|table| uncertain(table, place)).transpose()?,
             scaled,
-            report,
+            report: report(document.report.as_ref(), &document.classes, &models, &levels, scaled, place)?,
             target: document.reliability.and_then(|table| table.probability).unwrap_or(TARGET),
             levels,
             models,

@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use crate::fragility::{Dispersion, Weights};
 use crate::hazard::Hazard;
-use crate::ida::{Crossing, Levels};
+use crate::ida::{Crossing, Levels, Scaled};
 use crate::measures::Compared;
 use crate::uncertain::Samples;
 
@@ -116,6 +116,10 @@ tables! {
         /// Loss as a part of the value of a wall, for each of the fractions (-).
         #[key(minItems = 1)]
         loss_ratios: Option<Spanned<Vec<f64>>>,
+        /// Fractions of `u_ins`: fragilities of the last shock are told for the walls whose |u| has exceeded
+        /// each in the shocks before.
+        #[key(items = fraction(), minItems = 1)]
+        given: Option<Spanned<Vec<f64>>>,
     }
 
     /// A class of walls that risk engines see as one.
@@ -193,6 +197,7 @@ pub(super) fn report(
     classes: &[Spanned<ClassTable>],
     models: &[Model],
     levels: &Levels,
+    scaled: Scaled,
     place: &Place<'_>,
 ) -> Result<ReportOptions, FileError> {
     let usual = ReportTable::default();
@@ -206,7 +211,8 @@ pub(super) fn report(
     }
     let reference = spec.reference.as_ref().map(|own| own.get_ref().clone());
     let first = || models.first().map(|model| model.name.clone()).unwrap_or_default();
-    if matches!(levels, Levels::Cloud { .. }) {
+    let is_cloud = matches!(levels, Levels::Cloud { .. });
+    if is_cloud {
         let beta = spec.beta.as_ref().map(|word| ("beta", word.span()));
         if let Some((key, span)) = beta.or(spec.collapse.as_ref().map(|word| ("collapse", word.span()))) {
             let message =
@@ -217,6 +223,10 @@ pub(super) fn report(
     if let (Levels::Stripes(_), Some(word)) = (levels, &spec.collapse) {
         let message = "collapse has no part in stripes, of which no record is run twice; leave it out";
         return Err(place.error(word.span(), message));
+    }
+    if let Some(given) = spec.given.as_ref().filter(|_| scaled == Scaled::All || is_cloud) {
+        let message = "given needs scaled_shocks = \"last\", and levels of another method than a cloud";
+        return Err(place.error(given.span(), message));
     }
     let is_fraction = matches!(levels, Levels::Grid(_) | Levels::Stripes(_));
     let own_crossing = if is_fraction { Crossing::Fraction } else { Crossing::First };
@@ -237,7 +247,7 @@ pub(super) fn report(
         loss_ratios: spec.loss_ratios.as_ref().map(|ratios| ratios.get_ref().clone()),
         samples: None,
         compared: None,
-        given: Vec::new(),
+        given: spec.given.as_ref().map_or_else(Vec::new, |given| given.get_ref().clone()),
         weights: Weights::default(),
     })
 }

@@ -84,9 +84,6 @@ pub struct RecordNote {
     pub name: String,
     /// Fingerprint of the samples.
     pub fingerprint: String,
-    /// First samples of the shocks of a sequence after the first one.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub later: Vec<usize>,
     /// Number of samples.
     pub points: usize,
     /// Step \[s\].
@@ -163,7 +160,6 @@ impl Contents {
             RecordNote {
                 name: record.name.clone(),
                 fingerprint: fingerprint(&bytes),
-                later: record.motion.shocks()[1..].iter().map(|shock| shock.start).collect(),
                 points: samples.len(),
                 step_s: record.motion.step(),
                 intensity: study.intensity(index),
@@ -193,7 +189,7 @@ impl Contents {
             tail_s: study.tail(),
             collapse_is: study.collapse(),
             polarity: study.polarity(),
-            scales_last: study.scaled() == Scaled::Last,
+            scales_last: study.scaled == Scaled::Last,
             part_size: study.part_size(),
             walls: walls.collect(),
             models: models
@@ -250,10 +246,9 @@ impl Contents {
     /// Writes everything except the walls.
     fn head(&self) -> String {
         let Self { program, sources, measure, measure_details, levels, grid, collapse_is, .. } = self;
-        let how = (self.tail_s, collapse_is, self.polarity, self.part_size);
+        let how = (self.tail_s, collapse_is, self.polarity, self.scales_last, self.part_size);
         let runs = (program, sources, measure, measure_details, levels, grid, how);
-        let scaled = if self.scales_last { "last shock\n" } else { "" };
-        format!("{scaled}{}\n{}\n{}", json(&runs), json(&self.models), json(&self.records))
+        format!("{}\n{}\n{}", json(&runs), json(&self.models), json(&self.records))
     }
 
     /// Describes the first line in which two contents differ.

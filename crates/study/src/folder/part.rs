@@ -3,10 +3,9 @@
 //! The same curves give the same bytes. The footer holds the fingerprint of the study, the number of the part
 //! and a checksum of the whole file.
 
-use std::ops::Range;
 use std::sync::Arc;
 
-use crate::ida::{Before, Curve, Run, TieDemand};
+use crate::ida::{Curve, Run, TieDemand};
 use bytes::Bytes;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::get_typed_column_reader;
@@ -27,7 +26,7 @@ const INTENSITY: &str = "intensity";
 /// Columns with their types, and whether a run may lack a value: a wall that did not overturn has no time of
 /// overturning, and only a collapse has a sensitivity. The intensity has the SI unit of the study, so that it
 /// is read back to the last bit.
-const COLUMNS: [(&str, Physical, Repetition); 14] = [
+const COLUMNS: [(&str, Physical, Repetition); 12] = [
     ("case", Physical::INT64, Repetition::REQUIRED),
     ("wall", Physical::BYTE_ARRAY, Repetition::REQUIRED),
     ("model", Physical::BYTE_ARRAY, Repetition::REQUIRED),
@@ -40,13 +39,9 @@ const COLUMNS: [(&str, Physical, Repetition); 14] = [
     ("tie_force_n", Physical::DOUBLE, Repetition::OPTIONAL),
     ("tie_elongation_m", Physical::DOUBLE, Repetition::OPTIONAL),
     ("tie_broken", Physical::BOOLEAN, Repetition::OPTIONAL),
-    ("u_max_over_u_ins_before", Physical::DOUBLE, Repetition::OPTIONAL),
-    ("tie_broken_before", Physical::BOOLEAN, Repetition::OPTIONAL),
 ];
-/// Columns of a study with ties that may yield.
-const OF_TIES: Range<usize> = 9..12;
-/// Columns of a study that scales the last shock of sequences. Without ties they follow those of all studies.
-const BEFORE: Range<usize> = 12..14;
+/// Number of the last columns, of a study with ties that may yield.
+const OF_TIES: usize = 3;
 /// Key of our entry in the footer.
 const KEY: &str = "rocking-wall";
 /// The word before the checksum, which is zero while it is computed.
@@ -103,11 +98,9 @@ fn head(study: &str, part: usize) -> String {
 }
 
 fn write(contents: &Contents, study: &str, part: usize, curves: &[Curve]) -> Result<Vec<u8>, ParquetError> {
+    let count = COLUMNS.len() - if contents.has_yielding_ties() { 0 } else { OF_TIES };
     let intensity = format!("{INTENSITY}{}", contents.unit.si_ending());
-    let ties = if contents.has_yielding_ties() { &COLUMNS[OF_TIES] } else { &[] };
-    let before = if contents.scales_last { &COLUMNS[BEFORE] } else { &[] };
-    let all = COLUMNS[..OF_TIES.start].iter().chain(ties).chain(before);
-    let columns = all.map(|&(name, physical, repetition)| {
+    let columns = COLUMNS[..count].iter().map(|&(name, physical, repetition)| {
         (if name == INTENSITY { &*intensity } else { name }, physical, repetition)
     });
     let field = |(name, physical, repetition): (&str, Physical, Repetition)| {
@@ -141,9 +134,12 @@ fn rows(
     curves: &[Curve],
     group: &mut SerializedRowGroupWriter<'_, Vec<u8>>,
 ) -> Result<(), ParquetError> {
-    let of_curves = contents.part(part).zip(curves);
-    let runs: Vec<(usize, &Run)> =
-        of_curves.flat_map(|(index, curve)| curve.runs().iter().map(move |run| (index, run))).collect();
+    let curves = contents.part(part).zip(curves);
+    let runs: Vec<(usize, &Run)> = curves
+        .flat_map(|(index, curve)| {
+            curve.before().into_iter().chain(curve.runs()).map(move |run| (index, run))
+        })
+        .collect();
     column::<Int64Type>(group, runs.iter().map(|(index, _)| i64::try_from(*index).ok()))?;
     let names: [fn(&Contents, usize) -> &str; 3] = [
         |contents, index| &contents.walls[contents.case(index).wall].name,
@@ -163,11 +159,6 @@ fn rows(
         column::<DoubleType>(group, runs.iter().map(|(_, run)| Some(run.tie?.force)))?;
         column::<DoubleType>(group, runs.iter().map(|(_, run)| Some(run.tie?.elongation)))?;
         column::<BoolType>(group, runs.iter().map(|(_, run)| Some(run.tie?.broken)))?;
-    }
-    if contents.scales_last {
-        let before = || curves.iter().flat_map(|curve| curve.runs().iter().map(|_| curve.before()));
-        column::<DoubleType>(group, before().map(|before| Some(before?.demand)))?;
-        column::<BoolType>(group, before().map(|before| Some(before?.broken)))?;
     }
     Ok(())
 }
@@ -199,31 +190,28 @@ fn read(
         [4, 5, 7, 8].map(|column| values::<DoubleType>(&*group, column));
     let numbers = intensities?.into_iter().zip(demands?).zip(times?.into_iter().zip(sensitivities?));
     let mut ties = if contents.has_yielding_ties() { ties(&*group)? } else { Vec::new() }.into_iter();
-    let mut states = if contents.scales_last { before(contents, &*group)? } else { Vec::new() }.into_iter();
     let range = contents.part(part);
     let mut runs: Vec<Vec<Run>> = vec![Vec::new(); range.len()];
-    let mut befores = vec![None; range.len()];
     for (case, ((intensity, demand), (overturning, sensitivity))) in cases.into_iter().zip(numbers) {
         let place = case.and_then(|case| usize::try_from(case).ok()?.checked_sub(range.start));
-        let place = place.filter(|place| *place < runs.len());
-        let (Some(intensity), Some(demand), Some(place)) = (intensity, demand, place) else {
+        let (Some(intensity), Some(demand), Some(runs)) =
+            (intensity, demand, place.and_then(|place| runs.get_mut(place)))
+        else {
             return Ok(None);
         };
-        befores[place] = states.next().flatten();
         let run = Run { intensity, demand, overturning, tie: ties.next().flatten(), sensitivity };
         if !is_possible(&run) {
             return Ok(None);
         }
-        runs[place].push(run);
+        runs.push(run);
     }
     let is_complete = runs.iter().all(|runs| !runs.is_empty());
-    let curves = runs.into_iter().zip(befores);
-    Ok(is_complete.then(|| curves.map(|(runs, before)| Curve::new(runs).with_before(before)).collect()))
+    Ok(is_complete.then(|| runs.into_iter().map(Curve::new).collect()))
 }
 
 /// Reads the demands on ties, row by row.
 fn ties(group: &dyn RowGroupReader) -> Result<Vec<Option<TieDemand>>, ParquetError> {
-    let first = OF_TIES.start;
+    let first = COLUMNS.len() - OF_TIES;
     let forces = values::<DoubleType>(group, first)?.into_iter();
     let demands =
         forces.zip(values::<DoubleType>(group, first + 1)?).zip(values::<BoolType>(group, first + 2)?);
@@ -231,13 +219,6 @@ fn ties(group: &dyn RowGroupReader) -> Result<Vec<Option<TieDemand>>, ParquetErr
         Some(TieDemand { force: force?, elongation: elongation?, broken: broken? })
     };
     Ok(demands.map(demand).collect())
-}
-
-/// Reads what walls were before the last shock, row by row.
-fn before(contents: &Contents, group: &dyn RowGroupReader) -> Result<Vec<Option<Before>>, ParquetError> {
-    let first = if contents.has_yielding_ties() { BEFORE.start } else { OF_TIES.start };
-    let states = values::<DoubleType>(group, first)?.into_iter().zip(values::<BoolType>(group, first + 1)?);
-    Ok(states.map(|(demand, broken)| Some(Before { demand: demand?, broken: broken? })).collect())
 }
 
 /// Reads a column, row by row.
@@ -258,5 +239,5 @@ fn is_possible(run: &Run) -> bool {
     let tie = run.tie.iter().flat_map(|tie| [tie.force, tie.elongation]);
     let measures =
         [run.intensity, run.demand].into_iter().chain(run.overturning).chain(run.sensitivity).chain(tie);
-    run.intensity > 0.0 && measures.into_iter().all(is_measure)
+    measures.into_iter().all(is_measure)
 }

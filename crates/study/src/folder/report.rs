@@ -105,17 +105,11 @@ impl<'a> Output<'a> {
         let cloud = folder.contents().is_cloud.then_some(&CLOUD);
         let given = (!folder.manifest().report.given.is_empty()).then_some(&GIVEN);
         let kinds = if folder.contents().count() <= MOST_LISTED { &KINDS[..] } else { &KINDS[2..] };
+        let kinds = kinds.iter().chain(ties).chain(cloud).chain(given).copied();
         Ok(Self {
             folder,
             runs,
-            tables: kinds
-                .iter()
-                .chain(ties)
-                .chain(cloud)
-                .chain(given)
-                .copied()
-                .map(begun)
-                .collect::<Result<_, _>>()?,
+            tables: kinds.map(begun).collect::<Result<_, _>>()?,
             risk: Risk::new(folder.path(), folder.manifest())?,
             sampled: Sampled::new(folder.manifest()),
             measures: Measures::new(folder.manifest()),

@@ -183,7 +183,7 @@ pub(crate) fn collapses(manifest: &Manifest, wall: usize, curves: &[Curve]) -> T
     if contents.scales_last {
         table = table
             .value("u_max_over_u_ins_before", |(_, curve)| curve.before().map(|before| before.demand))
-            .value("tie_broken_before", |(_, curve)| curve.before().map(|before| before.broken));
+            .value("tie_broken_before", |(_, curve)| curve.before()?.tie.map(|tie| tie.broken));
     }
     table.done()
 }

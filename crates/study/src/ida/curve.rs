@@ -85,15 +85,6 @@ impl TieDemand {
     }
 }
 
-/// A wall before the last shock of a sequence.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Before {
-    /// Largest |u|/`u_ins` in the shocks before \[-\].
-    pub demand: f64,
-    /// A tie has broken.
-    pub broken: bool,
-}
-
 /// Intensity at which the demand exceeds a limit state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exceedance {
@@ -185,26 +176,24 @@ pub struct Curve {
     runs: Vec<Run>,
     /// Number of runs below the collapse.
     below_collapse: usize,
-    /// The wall before the last shock, where that alone is scaled.
-    before: Option<Before>,
+    /// The run through the shocks before the last one, where that alone is scaled; its intensity is 0.
+    before: Option<Run>,
 }
 
 impl Curve {
-    /// Creates a curve from its runs in any order.
+    /// Creates a curve from its runs in any order. One of intensity 0 goes through the shocks before the
+    /// last.
     pub fn new(mut runs: Vec<Run>) -> Self {
         runs.sort_by(|a, b| a.intensity.total_cmp(&b.intensity));
+        let before = runs.first().copied().filter(|run| run.intensity == 0.0);
+        runs.drain(..usize::from(before.is_some()));
         let below_collapse = runs.iter().position(|run| run.overturning.is_some()).unwrap_or(runs.len());
-        Self { runs, below_collapse, before: None }
+        Self { runs, below_collapse, before }
     }
 
-    /// Adds what the wall was before the last shock.
-    pub(crate) fn with_before(self, before: Option<Before>) -> Self {
-        Self { before, ..self }
-    }
-
-    /// Returns the wall before the last shock of a sequence, where that alone is scaled.
-    pub fn before(&self) -> Option<Before> {
-        self.before
+    /// Returns the run through the shocks before the last one, where that alone is scaled.
+    pub fn before(&self) -> Option<&Run> {
+        self.before.as_ref()
     }
 
     /// Returns the runs in the order of their levels.

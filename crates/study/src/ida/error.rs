@@ -30,30 +30,9 @@ pub enum IdaError {
     /// The free vibration after a record is outside its limits.
     #[error("the tail is {value} s; it must be from 0 to {limit} s", limit = super::LONGEST_TAIL)]
     Tail { value: f64 },
-    /// Levels scale the last shock of a record that has none before it.
-    #[error(
-        "record {record:?} is not a sequence with a pause of two steps or more, and scale = \"last\" scales \
-         the last shock of one; give it in sequences, or leave scale out"
-    )]
-    NoSequence { record: String },
-    /// Levels scale the last shock, and a wall stands on storeys.
-    #[error(
-        "wall {wall:?} stands on storeys, which still move when the last shock begins; with scale = \"last\" \
-         leave the storeys out, or give scale = \"all\""
-    )]
-    LastOnStoreys { wall: String },
-    /// Levels scale the last shock, and take the worse sign.
-    #[error(
-        "polarity = \"worst\" compares signs of the last shock that begin in different states; with \
-         scale = \"last\" give polarity = \"both\""
-    )]
-    LastWorst,
-    /// A wall overturns before the shock that is scaled.
-    #[error(
-        "wall {wall:?} with the damping model {model:?} overturns under {record:?} before the last shock, \
-         which alone is scaled; give the shocks before it a smaller scale, or leave the sequence out"
-    )]
-    OverturnedBefore { wall: String, record: String, model: String },
+    /// The last shock of a sequence cannot be scaled by itself.
+    #[error("{what}; scaled_shocks = \"last\" needs a pause of two steps, and a standing wall on the ground")]
+    LastShock { what: String },
     /// The floors do not fit the wall (a strip wall needs two).
     #[error("wall {wall:?}, record {record:?}: {source}")]
     Floors { wall: String, record: String, source: Box<SceneError> },

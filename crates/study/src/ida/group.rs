@@ -9,7 +9,7 @@ use run::shaking::{Shaken, Shaking, together};
 
 use super::levels::Trace;
 use super::polarity::worse;
-use super::{Case, Curve, IdaError, Levels, MOST_LISTED, Run, Scaled, Study};
+use super::{Case, Curve, IdaError, Levels, MOST_LISTED, Run, Study};
 
 /// Most curves of many levels that advance together: enough to fill the lanes of nearly all rounds. The
 /// records of each are in memory, prepared for its wall.
@@ -49,13 +49,12 @@ impl Study {
         steps.dedup();
         let solvers: Vec<_> = steps.iter().map(|step| RecordSolver::new(&motion, *step)).collect();
         let mut shakings = Vec::with_capacity(cases.len());
-        for support in &supports {
+        let mut states = Vec::with_capacity(cases.len());
+        for (case, support) in cases.iter().zip(&supports) {
             let solver = &solvers[steps.partition_point(|step| *step < support.step())];
-            shakings.push(Shaking::new(solver, support, self.tail));
-        }
-        let mut before: Vec<_> = cases.iter().map(|_| Ok(None)).collect();
-        if self.scaled == Scaled::Last {
-            before = self.run_before_last(&cases, &mut shakings);
+            let mut shaking = Shaking::new(solver, support, self.tail);
+            states.push(self.run_before(*case, solver, &mut shaking)?);
+            shakings.push(shaking);
         }
         if !self.levels.are_few() {
             for shaking in &shakings {
@@ -65,11 +64,7 @@ impl Study {
         let signs: &[f64] = if self.takes_the_worse(&motion) { &[1.0, -1.0] } else { &[1.0] };
         let group = Group { motion: &motion, cases: &cases, shakings: &shakings, signs };
         let trace = |case: &Case| Trace::new(&self.levels, self.own_level(case.record));
-        let (mut traces, mut states) = (Vec::with_capacity(cases.len()), Vec::with_capacity(cases.len()));
-        for (case, before) in cases.iter().zip(before) {
-            states.push(before.as_ref().ok().copied().flatten());
-            traces.push(before.map(|_| trace(case)));
-        }
+        let mut traces: Vec<Result<Trace<'_>, IdaError>> = cases.iter().map(|case| Ok(trace(case))).collect();
         while self.advance(&group, &mut traces) {}
         let curves = traces.into_iter().map(|trace| Ok(trace?.finish()));
         let mut curves = curves.collect::<Result<Vec<_>, IdaError>>()?;
@@ -77,7 +72,7 @@ impl Study {
             self.probe(&group, &mut curves);
         }
         let curves = curves.into_iter().zip(states);
-        Ok(curves.map(|(runs, before)| Curve::new(runs).with_before(before)).collect())
+        Ok(curves.map(|(runs, before)| Curve::new(before.into_iter().chain(runs).collect())).collect())
     }
 
     /// Runs the levels that curves want next, all together; returns whether there were any. A curve whose run

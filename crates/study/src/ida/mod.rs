@@ -45,7 +45,7 @@ use run::records::NamedRecord;
 use run::shaking::felt;
 use run::walls::NamedWall;
 
-pub use curve::{Before, Collapse, Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
+pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
 pub use error::IdaError;
 pub use levels::Levels;
 pub use measure::{IntensityMeasure, Misfit, ToSi};
@@ -71,7 +71,7 @@ pub struct Study {
     tail: f64,
     collapse: Collapse,
     polarity: Polarity,
-    scaled: Scaled,
+    pub(crate) scaled: Scaled,
     /// Intensity of what the levels scale of each record, unscaled, in SI units.
     intensities: Vec<f64>,
 }
@@ -195,11 +195,6 @@ impl Study {
     /// Returns which runs have overturned.
     pub fn collapse(&self) -> Collapse {
         self.collapse
-    }
-
-    /// Returns what the levels scale of records that are sequences.
-    pub fn scaled(&self) -> Scaled {
-        self.scaled
     }
 
     /// Returns the intensity of what the levels scale of a record, unscaled, in the SI unit of the measure.

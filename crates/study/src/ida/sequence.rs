@@ -4,15 +4,12 @@ use std::borrow::Cow;
 
 use files::choices;
 use ground_motion::GroundMotion;
-use record::{Outcome, RunEnd};
+use record::{RecordSolver, RunEnd};
 use rocking_wall::solver::{Peaks, State};
-use rocking_wall::wall::Wall;
 use run::shaking::{Shaken, Shaking, together};
 use serde::{Deserialize, Serialize};
 
-use super::curve::{Before, TieDemand};
-use super::polarity::Polarity;
-use super::{Case, IdaError, Study, intensity};
+use super::{Case, IdaError, Run, Study, intensity};
 
 /// What the levels of a study scale, of records that are sequences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -27,32 +24,23 @@ pub enum Scaled {
 
 choices!(Scaled);
 
-impl Before {
-    fn of(wall: &Wall, state: &State) -> Self {
-        let broken = TieDemand::of(wall, state).is_some_and(|tie| tie.broken);
-        Self { demand: state.peaks.ratio(wall.body().instability), broken }
-    }
-}
-
 impl Study {
     /// Sets what the levels scale. The intensity is that of what they scale.
     ///
     /// # Errors
-    /// [`IdaError::NoSequence`] of a record without a shock before its last one, [`IdaError::LastOnStoreys`],
-    /// [`IdaError::LastWorst`], and errors of intensities as in [`Study::new`].
+    /// [`IdaError::LastShock`] of a record without a shock before its last one, and of walls on storeys;
+    /// errors of intensities as in [`Study::new`].
     pub fn with_scaled(mut self, scaled: Scaled) -> Result<Self, IdaError> {
         self.scaled = scaled;
         if scaled == Scaled::All {
             return Ok(self);
         }
-        if self.polarity == Polarity::Worst {
-            return Err(IdaError::LastWorst);
-        }
-        if let Some(wall) = self.walls.iter().find(|wall| wall.floors.is_some()) {
-            return Err(IdaError::LastOnStoreys { wall: wall.name.clone() });
-        }
-        if let Some(record) = self.records.iter().find(|record| record.motion.split_last().is_none()) {
-            return Err(IdaError::NoSequence { record: record.name.clone() });
+        let on_storeys = self.walls.iter().find(|wall| wall.floors.is_some());
+        let on_storeys = on_storeys.map(|wall| format!("wall {:?} stands on storeys", wall.name));
+        let single = self.records.iter().find(|record| record.motion.split_last().is_none());
+        let single = single.map(|record| format!("record {:?} is no sequence with a pause", record.name));
+        if let Some(what) = on_storeys.or(single) {
+            return Err(IdaError::LastShock { what });
         }
         let of =
             |index: usize| intensity(&self.measure, &self.records[index].name, &self.scaled_motion(index));
@@ -69,34 +57,28 @@ impl Study {
         }
     }
 
-    /// Runs the shocks before the last one of some cases, whose last shocks are `shakings`, and lets these go
-    /// on from there. Returns what the walls are then.
-    pub(super) fn run_before_last(
+    /// Runs the shocks before the last one, from whose end `shaking` goes on, and returns this run; `None`
+    /// where all shocks are scaled.
+    pub(super) fn run_before(
         &self,
-        cases: &[Case],
-        shakings: &mut [Shaking<'_>],
-    ) -> Vec<Result<Option<Before>, IdaError>> {
-        let before = |case: &Case| self.records[case.record].motion.split_last().map(|[before, _]| before);
-        let motions: Vec<_> = cases.iter().filter_map(before).collect();
-        let earlier: Vec<_> =
-            motions.iter().zip(&*shakings).map(|(motion, last)| last.under(motion)).collect();
-        let runs: Vec<_> =
-            earlier.iter().map(|shaking| Shaken { shaking, start: [0.0; 2], factor: 1.0 }).collect();
-        let outcomes = together(&runs, RunEnd::OfRecord);
-        let go_on = |((outcome, case), shaking): ((Result<Outcome, _>, &Case), &mut Shaking<'_>)| {
-            let state =
-                outcome.map_err(|source| self.failed(*case, self.intensities[case.record], source))?.state;
-            if state.overturned {
-                return Err(IdaError::OverturnedBefore {
-                    wall: self.walls[case.wall].name.clone(),
-                    record: self.records[case.record].name.clone(),
-                    model: self.models[case.model].name.clone(),
-                });
-            }
-            let before = Before::of(shaking.wall(), &state);
-            shaking.go_on_from(State { peaks: Peaks::at(state.displacement), ..state });
-            Ok(Some(before))
+        case: Case,
+        solver: &RecordSolver<'_>,
+        shaking: &mut Shaking<'_>,
+    ) -> Result<Option<Run>, IdaError> {
+        let record = &self.records[case.record];
+        let Some([before, _]) = record.motion.split_last().filter(|_| self.scaled == Scaled::Last) else {
+            return Ok(None);
         };
-        outcomes.into_iter().zip(cases).zip(shakings).map(go_on).collect()
+        let run = Shaken { shaking: &Shaking::new(solver, &before, 0.0), start: [0.0; 2], factor: 1.0 };
+        let outcome = together(&[run], RunEnd::OfRecord).remove(0);
+        let outcome = outcome.map_err(|source| self.failed(case, self.intensities[case.record], source))?;
+        if outcome.state.overturned {
+            let [wall, model] = [&self.walls[case.wall].name, &self.models[case.model].name];
+            let what =
+                format!("wall {wall:?} with {model:?} overturns before the last shock of {:?}", record.name);
+            return Err(IdaError::LastShock { what });
+        }
+        shaking.go_on_from(State { peaks: Peaks::at(outcome.state.displacement), ..outcome.state });
+        Ok(Some(Run::of(solver.motion(), 0.0, &outcome)))
     }
 }

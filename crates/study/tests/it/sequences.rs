@@ -13,7 +13,7 @@ use run::records::NamedRecord;
 use run::walls::NamedWall;
 use study::codes::NoCodes;
 use study::fragility::{Sample, fit};
-use study::ida::{Case, Crossing, IntensityMeasure, Levels, Scaled, Study};
+use study::ida::{Case, Crossing, IntensityMeasure, Levels, Run, Scaled, Study};
 use study::loaded::LoadedStudy;
 
 use crate::folders::{load, number, rows, run_analysis};
@@ -91,10 +91,8 @@ fn the_last_shock_goes_on_from_the_others() {
             alike(run.demand, second.u_ratio_max);
             let before = curve.before().unwrap();
             alike(before.demand, first.u_ratio_max);
-            let yielding = |shock: &rocking_wall::response::Shock| {
-                shock.demands.as_ref().unwrap().ties[0].yielding.unwrap()
-            };
-            assert_eq!(before.broken, yielding(first).breaks[0].is_some());
+            let yielding = |shock: &rocking_wall::response::Shock| shock.demands.ties[0].yielding.unwrap();
+            assert_eq!(before.tie.unwrap().broken, yielding(first).breaks[0].is_some());
             if second.overturned {
                 continue;
             }
@@ -113,8 +111,9 @@ fn the_last_shock_goes_on_from_the_others() {
 fn fragilities_are_told_by_the_state_before() {
     let text = "models = [\"CDC\"]\nintensity = { measure = \"PGA\" }\n\
                 levels = { method = \"grid\", step = 0.05, top = 1.5 }\n\
-                report = { fractions = [0.2, 1.0], resamples = 100, collapse = \"first\" }\n\
-                sequence = { scale = \"last\", given = [0.1, 0.2] }\n";
+                scaled_shocks = \"last\"\n\
+                [report]\nfractions = [0.2, 1.0]\nresamples = 100\ncollapse = \"first\"\n\
+                given = [0.1, 0.2]\n";
     let loaded = LoadedStudy::of_parts(text.into(), vec![tied()], sequences(12), &NoCodes).unwrap();
     let received = LoadedStudy::received(loaded.sent(&NoCodes), &NoCodes).unwrap();
     assert_eq!(received.study.run(2).unwrap(), loaded.study.run(2).unwrap());
@@ -128,10 +127,10 @@ fn fragilities_are_told_by_the_state_before() {
     let mut fitted = 0;
     for row in &given {
         let fraction = number(row, "u_max_over_u_ins");
-        let is_in = |before: study::ida::Before| match row["given"].as_str() {
+        let is_in = |before: &Run| match row["given"].as_str() {
             "any" => true,
-            "tie broken" => before.broken,
-            "d <= 0.1" => before.demand <= 0.1 && !before.broken,
+            "tie broken" => before.tie.unwrap().broken,
+            "d <= 0.1" => before.demand <= 0.1 && !before.tie.unwrap().broken,
             "d > 0.1" => before.demand > 0.1,
             "d > 0.2" => before.demand > 0.2,
             other => panic!("{other}"),
@@ -185,31 +184,28 @@ fn files_make_sequences_and_mistakes_are_named() {
     let wanted = GroundMotion::sequence(&[shocks[0].clone(), shocks[1].scaled(2.0)], 4.0).unwrap();
     assert_eq!(doubled.study.records()[0].motion, wanted);
     let files = "files = [\"main shock.csv\"]";
-    let last = format!("{grid}\nsequence = {{ scale = \"last\" }}");
-    let given = |given: &str| format!("{grid}\nsequence = {{ {given} }}");
-    let cloud = "levels = { method = \"cloud\" }\nsequence = { scale = \"last\", given = [0.1] }";
+    let last = format!("{grid}\nscaled_shocks = \"last\"");
+    let given = |scaled: &str, given: &str| {
+        format!("{grid}\nscaled_shocks = \"{scaled}\"\nreport = {{ given = {given} }}")
+    };
+    let cloud = "levels = { method = \"cloud\" }\nscaled_shocks = \"last\"\nreport = { given = [0.1] }";
     let strong = "sequences = [[{ record = \"main shock.csv\", scale = 20 }, \"aftershock.csv\"]]";
     let sequences = &format!("sequences = [{pair}]");
     for (records, more, message) in [
-        ("sequences = [\"main shock.csv\"]", grid, "line 6: sequences: a sequence is a list of at least two"),
-        ("sequences = [[]]", grid, "line 6: sequences"),
-        ("sequences = [[[\"a\"], \"b\"]]", grid, "a list within a list"),
-        ("sequences = [[\"main shock.csv\", \"gone.csv\"]]", grid, "line 6: "),
-        (&format!("{files}\npause = 4"), grid, "line 7: pause is the time between the records of sequences"),
+        ("sequences = [\"main shock.csv\"]", grid, "line 6: a sequence is a list of two records or more"),
+        ("sequences = [[]]", grid, "line 6: "),
+        ("sequences = [[[\"a\"], \"b\"]]", grid, "expected a path in quotes, or a list"),
+        ("sequences = [[\"main shock.csv\", \"gone.csv\"]]", grid, "gone.csv: cannot be read"),
+        (&format!("{files}\npause = 4"), grid, "line 7: a sequence is a list of two records or more"),
         (&format!("{sequences}\npause = -1"), grid, "pause = -1"),
         ("", grid, "[records] needs files = [...], selection = \"…\", sequences = [[...], ...]"),
-        (files, &last, "record \"main shock.csv\" is not a sequence with a pause"),
-        (
-            "sequences = [[\"cut.csv\", \"aftershock.csv\"]]\npause = 0",
-            &last,
-            "is not a sequence with a pause",
-        ),
-        (sequences, &given("scale = \"first\""), "\"all\""),
-        (sequences, &given("given = [0.1]"), "given: the state before the last shock differs"),
-        (sequences, &given("scale = \"last\", given = [1.5]"), "1.5"),
-        (sequences, &given("scale = \"last\", given = []"), "given"),
-        (sequences, cloud, "given: a cloud has too few runs in each state"),
-        (sequences, &format!("polarity = \"worst\"\n{last}"), "give polarity = \"both\""),
+        (files, &last, "record \"main shock.csv\" is no sequence with a pause"),
+        ("sequences = [[\"cut.csv\", \"aftershock.csv\"]]\npause = 0", &last, "needs a pause of two steps"),
+        (sequences, &given("first", "[0.1]"), "\"all\""),
+        (sequences, &given("all", "[0.1]"), "given needs scaled_shocks"),
+        (sequences, &given("last", "[1.5]"), "1.5"),
+        (sequences, &given("last", "[]"), "given"),
+        (sequences, cloud, "levels of another method than a cloud"),
         (sequences, &format!("{last}\nstoreys = [{{ period = 0.3 }}]"), "\"a\" stands on storeys"),
     ] {
         let told = with(records, more).err().unwrap_or_else(|| panic!("{records} {more}"));
@@ -217,7 +213,7 @@ fn files_make_sequences_and_mistakes_are_named() {
     }
     let told = with(strong, &last).unwrap().study.run(1).unwrap_err().to_string();
     assert!(
-        told.contains("\"a\" with the damping model \"CDC\" overturns under") && told.contains("scale"),
+        told.contains("\"a\" with \"CDC\" overturns before the last shock of") && told.contains("scale"),
         "{told}"
     );
 }
