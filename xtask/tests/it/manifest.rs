@@ -63,6 +63,30 @@ fn versions_agree() {
     assert!(citation.contains(&format!("\ndate-released: {date}\n")), "CITATION.cff: not of {date}");
 }
 
+/// A target whose manifest says `test = false` has no test that would not run.
+#[test]
+fn no_test_stands_where_none_is_built() {
+    let mut compared = 0;
+    for package in packages(&["--no-deps"]) {
+        for target in package["targets"].as_array().unwrap() {
+            let kinds = target["kind"].as_array().unwrap();
+            let is_source =
+                kinds.iter().any(|kind| ["lib", "rlib", "cdylib", "bin"].iter().any(|own| kind == own));
+            if !is_source || target["test"] == true {
+                continue;
+            }
+            compared += 1;
+            let head = Path::new(target["src_path"].as_str().unwrap());
+            let own = if head.ends_with("lib.rs") { head.parent().unwrap() } else { head };
+            let found =
+                Command::new("git").args(["grep", "-l", "-F", "#[test]", "--"]).arg(own).output().unwrap();
+            let found = String::from_utf8(found.stdout).unwrap();
+            assert!(found.is_empty(), "these tests do not run: {found}");
+        }
+    }
+    assert!(compared > 5, "{compared} targets");
+}
+
 /// The project has no public home yet: its address is a placeholder.
 #[test]
 fn the_address_of_the_repository_stands_in_one_place() {
