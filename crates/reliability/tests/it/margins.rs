@@ -64,7 +64,7 @@ impl Pulse {
             PulseForm::Triangle => 2.0 * (ramp(t) - 2.0 * ramp(after(0.5, t)) + ramp(after(1.0, t))),
             PulseForm::HalfSine => sine(t) + sine(after(1.0, t)),
             PulseForm::SineCycle => sine(t) - sine(after(1.0, t)),
-            PulseForm::Ricker => panic!("no closed form"),
+            PulseForm::CosineCycle | PulseForm::Ricker => panic!("no closed form"),
         };
         highest(|t| response(t).abs(), length + period)
     }
