@@ -214,10 +214,10 @@ pub fn record_files(entry: &RecordsEntry, folder: &Path, study: &str) -> Result<
                 other.path == file.path && own == *stripe
             };
             if listed.iter().any(is_again) {
-                let (list, path) = (list.display().to_string(), file.path.display());
+                let path = file.path.display();
                 let reason =
                     format!("{path} is named above this line too, or by `files`; delete one of them");
-                return Err(FileError::on_line(list, file.line, reason));
+                return Err(FileError::on_line(file.list, file.line, reason));
             }
             listed.push(RecordFile { path: file.path.clone(), is_named: false, listed: Some(file) });
         }
@@ -254,7 +254,7 @@ pub fn all_records(
         let refused = |error: GroundMotionError| SceneError::Value { message: error.to_string() };
         let (mut options, mut own) = (entry.options.clone(), Listed::default());
         if let Some(file) = listed {
-            (options.step, options.unit) = (options.step.or(file.step), options.unit.or(file.unit));
+            (options.step, options.unit) = (file.step.or(options.step), file.unit.or(options.unit));
             own = file.listed;
         }
         let record = read(path, &options).map_err(refused)?;
@@ -264,22 +264,27 @@ pub fn all_records(
             continue;
         }
         warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
-        let motion = if own.factor == 1.0 { record.motion } else { record.motion.scaled(own.factor) };
+        let motion = match listed {
+            Some(file) if own.factor != 1.0 => record.motion.checked_scaled(own.factor).map_err(|error| {
+                FileError::on_line(&file.list, file.line, format!("{}: {error}", path.display()))
+            })?,
+            _ => record.motion,
+        };
         let name = file_name(path);
         // files with equal names go by their whole paths
         let name = if uses[&name].len() > 1 { path.display().to_string() } else { name };
         let name = own.stripe.map_or(name.clone(), |stripe| format!("{name} (stripe {})", stripe + 1));
         records.push(NamedRecord { listed: own, ..NamedRecord::new(name, motion) });
     }
-    for (shocks, line) in &entry.sequences {
+    let names = sequence_names(entry, folder);
+    for ((shocks, line), name) in entry.sequences.iter().zip(names) {
         let warn = |table: &RecordTable, record: &Record| {
             let file = folder.join(&table.record);
             warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", file.display())));
         };
         let motion = shocks.read(&entry.options, entry.pause, folder, warn);
         let motion = motion.map_err(|problem| FileError::on_line(study, *line, problem.to_string()))?;
-        let names: Vec<_> = shocks.0.iter().map(|table| file_name(&table.record)).collect();
-        records.push(NamedRecord::new(names.join(" + "), motion));
+        records.push(NamedRecord::new(name, motion));
     }
     if records.is_empty() && !files.is_empty() && entry.synthetic.is_empty() {
         let reason = "records: all are vertical, and records shake walls sideways; name horizontal ones";
@@ -291,6 +296,20 @@ pub fn all_records(
         records.push(NamedRecord::new(format!("synthetic {}", recipe.seed), motion));
     }
     Ok(records)
+}
+
+/// Names the sequences by their files: those with equal names by their whole paths.
+fn sequence_names(entry: &RecordsEntry, folder: &Path) -> Vec<String> {
+    let joined = |name: fn(&Path) -> String, shocks: &Shocks| {
+        let names: Vec<_> = shocks.0.iter().map(|table| name(&folder.join(&table.record))).collect();
+        names.join(" + ")
+    };
+    let short: Vec<_> = entry.sequences.iter().map(|(shocks, _)| joined(file_name, shocks)).collect();
+    let name = |(name, (shocks, _)): (&String, &(Shocks, usize))| {
+        let is_alone = short.iter().filter(|other| *other == name).count() == 1;
+        if is_alone { name.clone() } else { joined(|path| path.display().to_string(), shocks) }
+    };
+    short.iter().zip(&entry.sequences).map(name).collect()
 }
 
 /// Groups the records that are one motion: their steps and samples are equal.

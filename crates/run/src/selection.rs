@@ -23,6 +23,8 @@ const MOST_LINES_ABOVE: usize = 100;
 const LARGEST: f64 = 1e5;
 /// What a folder may have: the list of PEER, a table, names of `EzGM` with one and with two components.
 const LISTS: [&str; 4] = ["_SearchResults.csv", "selection.csv", "GMR_names.txt", "GMR_H1_names.txt"];
+/// Column of files of PEER, whose reports go on below the list with notes and spectra.
+const FILES_OF_PEER: &str = "Horizontal-1 Acc. Filename";
 const FORMS: &str = "a list of records: a line of names with `file`, and a row for each record";
 
 /// What a list says of a record.
@@ -57,6 +59,8 @@ impl Default for Listed {
 #[derive(Clone, Debug)]
 pub(crate) struct ListedFile {
     pub(crate) path: PathBuf,
+    /// List that has it.
+    pub(crate) list: String,
     /// Line of the list, from 1.
     pub(crate) line: usize,
     pub(crate) listed: Listed,
@@ -74,25 +78,42 @@ enum Role {
     Factor,
     Weight,
     Step,
+    Unit,
 }
 
 /// Names of columns in small letters, without blanks, marks and units.
-const ROLES: [(Role, &str); 5] = [
+const ROLES: [(Role, &str); 6] = [
     (Role::File, "file filename record file1 filename1 record1 h1 horizontal1accfilename"),
     (Role::Second, "file2 filename2 record2 h2 horizontal2accfilename"),
     (Role::Factor, "scalefactor factor sf scale scalingfactor"),
     (Role::Weight, "weight weights w"),
     (Role::Step, "dt step timestep"),
+    (Role::Unit, "unit units"),
 ];
+/// Names that a column may have been meant to have.
+const MEANT: [&str; 6] = ["scale_factor", "factor", "weight", "step", "unit", "file"];
 
 impl Role {
     fn of(name: &Name) -> Option<Self> {
-        let plain = name.written().split(['(', '[']).next().unwrap_or_default();
-        let plain: String = plain.chars().filter(char::is_ascii_alphanumeric).collect();
-        let plain = plain.to_ascii_lowercase();
+        let plain = plain(name.written());
         let known = |(_, names): &&(Self, &str)| names.split(' ').any(|name| name == plain);
         ROLES.iter().find(known).map(|(role, _)| *role)
     }
+
+    /// Returns what may stand as the unit in the name of a column, if its values have one unit alone.
+    fn units(self) -> Option<&'static [&'static str]> {
+        match self {
+            Self::Factor | Self::Weight => Some(&["", "-", "1"]),
+            Self::Step => Some(&["", "s", "sec"]),
+            Self::File | Self::Second | Self::Unit => None,
+        }
+    }
+}
+
+/// Returns a name in small letters, without blanks, marks and its unit.
+fn plain(name: &str) -> String {
+    let name = name.split(['(', '[']).next().unwrap_or_default();
+    name.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_lowercase()
 }
 
 /// Returns the file that lists the records of a selection: a table, or one in a folder.
@@ -137,16 +158,29 @@ pub(crate) fn read(list: &Path, component: Option<u64>) -> Result<Vec<ListedFile
             stripe: None,
         };
         let step = number(Role::Step)?;
+        let unit = match place(Role::Unit) {
+            Some(place) => Some(cells[place].parse().map_err(|error| refuse(format!("unit: {error}")))?),
+            None => is_ezgm.then_some(Unit::StandardGravity),
+        };
+        let is_taken = |(_, number): &(usize, u64)| component.is_none_or(|taken| taken == *number);
         let components = [Role::File, Role::Second].into_iter().filter_map(place).zip(1..);
-        for (place, _) in components.filter(|(_, number)| component.is_none_or(|taken| taken == *number)) {
+        for (place, number) in components.filter(is_taken) {
             // PEER writes dashes where there is no component
-            let path = folder.join(cells[place].trim_matches('-').replace('\\', "/"));
+            let is_missing = cells[place].trim_matches(['-', ' ']).is_empty();
+            if is_missing && number == 2 && component.is_none() {
+                continue;
+            }
+            if is_missing {
+                let name = columns.names()[place].written();
+                let reason = "the row has no such component; name its file, or delete the row";
+                return Err(refuse(format!("{name}: {reason}")));
+            }
+            let path = folder.join(cells[place].replace('\\', "/"));
             if !path.is_file() {
                 let remedy = "put the file there, or correct the row";
                 return Err(refuse(format!("{} does not exist; {remedy}", path.display())));
             }
-            let unit = is_ezgm.then_some(Unit::StandardGravity);
-            files.push(ListedFile { path, line, listed, step, unit });
+            files.push(ListedFile { path, list: file.clone(), line, listed, step, unit });
         }
     }
     if files.is_empty() {
@@ -176,15 +210,41 @@ fn check(columns: &Columns<'_>, roles: &[Option<Role>]) -> Result<(), String> {
         ));
     }
     for (place, name) in names.iter().enumerate() {
-        let meant = suggestion(name, ["scale_factor"]);
-        if roles[place].is_none() && !meant.is_empty() {
-            return Err(format!("unknown column {name:?}{meant}"));
-        }
-        if let Some(twin) = (0..place).find(|twin| roles[*twin].is_some() && roles[*twin] == roles[place]) {
+        let Some(role) = roles[place] else {
+            check_unknown(name, roles)?;
+            continue;
+        };
+        if let Some(twin) = (0..place).find(|twin| roles[*twin] == Some(role)) {
             return Err(format!("{:?} and {name:?} state the same; delete one column", names[twin]));
+        }
+        let unit =
+            name.find(['(', '[', '%']).map_or("", |at| name[at..].trim_matches(|c| "([ ])".contains(c)));
+        if let Some(units) = role.units().filter(|units| !units.contains(&unit)) {
+            let remedy = "convert the values, and name the column without a unit";
+            let expected = if units.contains(&"s") { "s" } else { "plain numbers" };
+            return Err(format!("{name:?} is in {unit:?}, but its values are read as {expected}; {remedy}"));
         }
     }
     Ok(())
+}
+
+/// Refuses the name of an unknown column that may be meant to be a factor, a weight or another known one.
+fn check_unknown(name: &str, roles: &[Option<Role>]) -> Result<(), String> {
+    let plain = plain(name);
+    // numbered columns, such as file_3, are other components
+    let is_word = plain.len() > 3 && !plain.contains(|c: char| c.is_ascii_digit());
+    let slip = suggestion(&plain, MEANT.into_iter().filter(|_| is_word));
+    let says = |words: &[&str]| words.iter().any(|word| plain.contains(word));
+    let meant = if !slip.is_empty() {
+        slip
+    } else if says(&["weight"]) && !roles.contains(&Some(Role::Weight)) {
+        " (did you mean \"weight\"?)".to_owned()
+    } else if says(&["factor", "scal", "multipl"]) && !roles.contains(&Some(Role::Factor)) {
+        " (did you mean \"scale_factor\"?)".to_owned()
+    } else {
+        return Ok(());
+    };
+    Err(format!("unknown column {name:?}{meant}; rename or delete it"))
 }
 
 /// Makes a table of the names and steps of `EzGM`, which stand line by line in files of their own.
@@ -205,8 +265,8 @@ fn of_ezgm(list: &Path, names: &str) -> Result<String, FileError> {
     Ok((0..columns[0].len()).map(row).collect::<Vec<_>>().join("\n"))
 }
 
-/// Cuts the table out of a report with text above and below it; blank lines keep the numbers of its lines. A
-/// text without a column of files stays as it is.
+/// Cuts the table out of a report with text above it, and that of PEER out of the text below it, too; blank
+/// lines keep the numbers of its lines. A text without a column of files stays as it is.
 fn table(text: &str) -> String {
     let lines: Vec<&str> = text.lines().collect();
     let is_heading = |line: &&str| {
@@ -219,6 +279,8 @@ fn table(text: &str) -> String {
     if !lines[..start].iter().any(is_text) {
         return text.to_owned();
     }
-    let rows: Vec<_> = lines[start..].iter().take_while(|line| !is_blank(line)).copied().collect();
+    let is_of_peer = lines[start].contains(FILES_OF_PEER);
+    let rows: Vec<_> =
+        lines[start..].iter().take_while(|line| !(is_of_peer && is_blank(line))).copied().collect();
     "\n".repeat(start) + &rows.join("\n")
 }

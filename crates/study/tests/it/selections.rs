@@ -132,6 +132,9 @@ fn folders_of_ezgm_are_scaled() {
     assert_eq!(listed(&loaded), [named("A_ACC.txt", 1.0, 1.0, 0.1), named("B_ACC.txt", 1.0, 1.0, 0.2)]);
     let steps: Vec<_> = loaded.study.records().iter().map(|record| record.motion.step()).collect();
     assert_eq!(steps, [0.005, 0.01]);
+    // the options are for files of which the list states nothing
+    let options = load(&folder, "selection = \"set\"\nunit = \"m/s2\"\nstep = 1").unwrap();
+    assert_eq!(options.study.records(), loaded.study.records());
     fs::remove_file(folder.join("set/GMR_names.txt")).unwrap();
     write("GMR_H1_names.txt", "A_ACC.txt\nB_ACC.txt\n");
     write("GMR_H2_names.txt", "C_ACC.txt\nD_ACC.txt\n");
@@ -214,4 +217,112 @@ fn wrong_lists_are_refused() {
 for {expected}"
         );
     }
+}
+
+/// A slip in the name of a column, or a unit beside it, does not let all records count alike.
+#[test]
+fn unclear_columns_are_refused() {
+    let folder = folder("selection_columns");
+    for (column, expected) in [
+        ("weigth", "unknown column \"weigth\" (did you mean \"weight\"?); rename or delete it"),
+        ("Weigth [-]", "(did you mean \"weight\"?)"),
+        ("probability weight", "(did you mean \"weight\"?)"),
+        ("multiplier", "(did you mean \"scale_factor\"?)"),
+        ("unti", "(did you mean \"unit\"?)"),
+        ("SF [%]", "\"SF [%]\" is in \"%\", but its values are read as plain numbers; convert"),
+        ("SF %", "is in \"%\""),
+        ("weight (kN)", "is in \"kN\""),
+        ("dt [ms]", "\"dt [ms]\" is in \"ms\", but its values are read as s;"),
+    ] {
+        fs::write(folder.join("list.csv"), format!("file,{column}\na1.AT2,2\n")).unwrap();
+        let error = load(&folder, "selection = \"list.csv\"").unwrap_err();
+        assert!(error.contains("list.csv, line 1: ") && error.contains(expected), "{error}\nfor {expected}");
+    }
+    let known = ["SF [-]", "weight (-)", "set", "No", "magnitude", "Vertical Acc. Filename", "file_3"];
+    for (column, value) in known.map(|column| (column, "2")).into_iter().chain([("dt [s]", "0.01")]) {
+        fs::write(folder.join("list.csv"), format!("file,{column}\na1.AT2,{value}\n")).unwrap();
+        assert!(load(&folder, "selection = \"list.csv\"").is_ok(), "{column}");
+    }
+}
+
+/// A list states units and steps of files without their own, whatever the options are.
+#[test]
+fn a_list_states_units_and_steps() {
+    let folder = folder("selection_units");
+    for name in ["c.txt", "d.txt"] {
+        fs::write(folder.join(name), "0.0\n0.5\n0.0\n").unwrap();
+    }
+    fs::write(folder.join("list.csv"), "file,unit,dt\nc.txt,g,0.01\nd.txt,cm/s2,0.02\n").unwrap();
+    let loaded = load(&folder, "selection = \"list.csv\"\nunit = \"m/s2\"\nstep = 1").unwrap();
+    let motions = loaded.study.records().iter().map(|record| &record.motion);
+    let found: Vec<_> = motions.map(|motion| (motion.step(), motion.samples()[1])).collect();
+    assert_eq!(found, [(0.01, 0.5 * STANDARD_GRAVITY), (0.02, 0.5 / 100.0)]);
+    fs::write(folder.join("list.csv"), "file,unit,dt\nc.txt,ft,0.01\n").unwrap();
+    let error = load(&folder, "selection = \"list.csv\"").unwrap_err();
+    assert!(error.contains("list.csv, line 2: unit: ") && error.contains("ft"), "{error}");
+}
+
+/// A factor that no record can have is refused on its line: 20 g × 10⁵ exceeds 10⁶ m/s².
+#[test]
+fn a_factor_beyond_all_records_is_refused() {
+    let folder = folder("selection_large");
+    let text = "NPTS= 3, DT= .01 SEC\n0 20 0\n";
+    fs::write(folder.join("c.AT2"), format!("A\nNowhere, 1/1/2001, Hill, 90\nUNITS OF G\n{text}")).unwrap();
+    fs::write(folder.join("list.csv"), "file,sf\na1.AT2,1\nc.AT2,100000\n").unwrap();
+    let error = load(&folder, "selection = \"list.csv\"").unwrap_err();
+    assert!(error.contains("list.csv, line 3: ") && error.contains("cannot be scaled by 100000"), "{error}");
+}
+
+/// Rows below a blank line count, with a title above the list as without it.
+#[test]
+fn blank_lines_end_no_list() {
+    let folder = folder("selection_blank");
+    let list = "file,weight\na1.AT2,1\n\na2.AT2,1\n,\nb1.AT2,1\n";
+    for text in [list.to_owned(), format!("Selected for site X\n\n{list}")] {
+        fs::write(folder.join("list.csv"), &text).unwrap();
+        let names: Vec<_> = listed(&load(&folder, "selection = \"list.csv\"").unwrap());
+        assert_eq!(names.len(), 3, "{text}");
+    }
+    fs::write(folder.join("list.csv"), format!("Selected for site X\n{list}\nChosen by hand\n")).unwrap();
+    let error = load(&folder, "selection = \"list.csv\"").unwrap_err();
+    assert!(error.contains("list.csv, line 9: expected one value for each column, 2 in all"), "{error}");
+}
+
+/// A row without a second component gives one record, and none where the second is asked for.
+#[test]
+fn a_component_may_be_missing() {
+    let folder = folder("selection_missing");
+    for none in ["", "---", " - "] {
+        let text = format!("file,file2,sf\na1.AT2,{none},1\nb1.AT2,b2.AT2,1\n");
+        fs::write(folder.join("list.csv"), text).unwrap();
+        let names = |records: &str| -> Result<Vec<String>, String> {
+            Ok(listed(&load(&folder, records)?).into_iter().map(|(name, ..)| name).collect())
+        };
+        assert_eq!(names("selection = \"list.csv\"").unwrap(), ["a1.AT2", "b1.AT2", "b2.AT2"]);
+        assert_eq!(names("selection = \"list.csv\"\ncomponent = 1").unwrap(), ["a1.AT2", "b1.AT2"]);
+        let error = names("selection = \"list.csv\"\ncomponent = 2").unwrap_err();
+        assert!(error.contains("list.csv, line 2: file2: the row has no such component"), "{error}");
+    }
+    fs::write(folder.join("list.csv"), "file,file2\n---,a2.AT2\n").unwrap();
+    let error = load(&folder, "selection = \"list.csv\"").unwrap_err();
+    assert!(error.contains("list.csv, line 2: file: the row has no such component"), "{error}");
+}
+
+/// Sequences whose files have equal names go by their whole paths.
+#[test]
+fn sequences_of_equal_names_go_by_their_paths() {
+    let folder = folder("selection_sequences");
+    for event in ["e1", "e2"] {
+        fs::create_dir(folder.join(event)).unwrap();
+        for (from, to) in [("a1.AT2", "H.AT2"), ("b1.AT2", "K.AT2")] {
+            fs::copy(folder.join(from), folder.join(event).join(to)).unwrap();
+        }
+    }
+    let sequences = "sequences = [[\"e1/H.AT2\", \"e1/K.AT2\"], [\"e2/H.AT2\", \"e2/K.AT2\"], \
+                     [\"a1.AT2\", \"b1.AT2\"]]";
+    let names: Vec<_> = listed(&load(&folder, sequences).unwrap()).into_iter().map(|one| one.0).collect();
+    let path = |name: &str| folder.join(name).display().to_string();
+    let whole =
+        |event: &str| format!("{} + {}", path(&format!("{event}/H.AT2")), path(&format!("{event}/K.AT2")));
+    assert_eq!(names, [whole("e1"), whole("e2"), "a1.AT2 + b1.AT2".to_owned()]);
 }
