@@ -229,6 +229,11 @@ fn sequence(
     folder: &Path,
     notes: &mut Vec<String>,
 ) -> Result<GroundMotion, Problem> {
+    if spec.fingerprint.is_some() && shocks.0.len() > 1 {
+        let message = "fingerprint is that of one record; state it in the table of each, such as record = \
+                       [{ record = \"MAIN\", fingerprint = \"…\" }, \"AFTER\"]";
+        return Err(Problem::Table(message.into()));
+    }
     let mut shocks = shocks.clone();
     for own in &mut shocks.0 {
         own.fingerprint = own.fingerprint.take().or_else(|| spec.fingerprint.clone());

@@ -155,7 +155,7 @@ fn scenes_state_sequences() {
         ("pause = -1\nrecord = [\"main.csv\", \"after.csv\"]\n", "pause = -1"),
         ("pause = 1e6\nrecord = [\"main.csv\", \"after.csv\"]\n", "shorten the pause"),
         ("from = 90\nrecord = [\"main.csv\", \"after.csv\"]\n", "the interval must lie within the record"),
-        ("fingerprint = \"0\"\nrecord = [\"main.csv\", \"after.csv\"]\n", "has the fingerprint"),
+        ("fingerprint = \"0\"\nrecord = [\"main.csv\", \"after.csv\"]\n", "state it in the table of each"),
         ("record = [\"main.csv\", { record = \"after.csv\", fingerprint = \"0\" }]\n", "has the fingerprint"),
         ("record = [\"main.csv\", { record = \"after.csv\", scale = 1, pga = 1 }]\n", "exclude each other"),
     ] {
