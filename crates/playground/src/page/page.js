@@ -93,8 +93,9 @@ function row(field, about) {
   } else {
     const input = make("input", { type: "text", id, inputMode: "decimal", title: meaning });
     input.setAttribute("aria-describedby", fault.id);
-    // a decimal comma is a point
-    input.addEventListener("input", () => set(field.name, input.value.replace(/^(-?\d*),(\d+)$/, "$1.$2")));
+    // in Italian a comma is a decimal point; in English it may separate thousands, and is refused
+    const decimal = text => isItalian() ? text.replace(/^(-?\d*),(\d+)$/, "$1.$2") : text;
+    input.addEventListener("input", () => set(field.name, decimal(input.value)));
     field.computable = about.computable;
     element.append(input, make("small", { textContent: (field.unit ?? about.unit ?? "").replace("2", "²")
       .replace("m3", "m³") }));

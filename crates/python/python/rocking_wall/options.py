@@ -455,19 +455,6 @@ class Report(TypedDict, total=False):
     small_sample: bool
 
 
-class Sequences(TypedDict, total=False):
-    """Sequences of records: what the levels scale, and fragilities by the state of the walls.
-
-    - given: Fractions of u_ins: fragilities of the last shock are told for the walls whose |u| has exceeded
-      each in the shocks before.
-    - scale: What the levels scale: all shocks of a sequence, or the last one, the others being as they are;
-      default "all".
-    """
-
-    given: Sequence[float]
-    scale: Literal["all", "last"]
-
-
 class Uncertain(TypedDict, total=False):
     """Parameters of the walls that are not known: each wall stands for samples of them.
 
