@@ -1,9 +1,5 @@
 //! A capacity curve as the force law: displacements and forces, from a file or a list.
 //!
-//! A law keeps the points from which the curve is within a tolerance: the ends of straight lines, each split
-//! where the curve is farthest from it. This is the rule of Douglas and Peucker (1973), with the distance
-//! measured along the force.
-//!
 //! # Oscillators
 //! `m_eff` and λ may stand in place of a geometry. They are then those of a rigid body with these integrals,
 //! where k₀ is the slope at which the curve ends, and λ̄ = min(λ, 1/λ):
@@ -14,7 +10,6 @@
 //!
 //! For λ > 1 a mass r = (λ − 1/λ)(λ + 1) `m_eff` moves along at `z_r` = `z_G`/(λ + 1); otherwise r = 0.
 
-use std::fmt::Write;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -24,9 +19,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::choices::Mechanism;
+use crate::variables::GROUPS;
 use crate::wall::{Body, COMPUTED, ParameterError, Parameters, Sides, Statics, check_points};
 
-use super::keys::{Group, MULTILINEAR};
+use super::keys::{Group, KINEMATICS_GROUP, MULTILINEAR};
+use super::law::Law;
 
 /// Largest file that is read.
 const MAX_FILE_BYTES: u64 = 1 << 20;
@@ -35,6 +32,9 @@ const MOST_KEPT: usize = 500;
 const DEFAULT_TOLERANCE: f64 = 0.001;
 /// Heights of the centroid of a body that stands for an oscillator \[m\].
 const CENTROIDS: [f64; 2] = [0.001, 400.0];
+
+/// The parameter of a geometry that an oscillator has, too.
+const GRAVITY: &str = "gravity";
 
 const FORMS: &str = "a displacement and a force in each row, below a header such as `u [mm],F [kN]` or \
                      `d* [mm],a* [g]`";
@@ -77,8 +77,51 @@ pub struct Curve {
     pub file: Option<PathBuf>,
     /// Points [u, F] of the wall, the origin among them, u rising \[m, N\].
     pub points: Vec<[f64; 2]>,
-    /// How many of them the law keeps, how far it is from the others, and how it goes on.
+    /// How many of them the law keeps, how far it is from the others, how it goes on, and the doubts.
     pub note: String,
+    /// What is improbable of the curve on its wall.
+    pub doubts: Vec<String>,
+    /// Whether an oscillator has it, in place of a geometry.
+    pub is_of_oscillator: bool,
+    /// F₀ \[N\] and `u_ins` \[m\] whose fractions its points became.
+    scales: [Sides; 2],
+}
+
+impl Curve {
+    /// Refuses the name of a parameter that no oscillator has, if this is the curve of one.
+    ///
+    /// # Errors
+    /// The message.
+    pub fn refuse(&self, name: &str) -> Result<(), String> {
+        if !self.is_of_oscillator || is_of_oscillator(name) {
+            return Ok(());
+        }
+        Err(format!("{name} is that of a wall, and no oscillator has it; change `oscillator` in its file"))
+    }
+
+    /// Returns what is left of it after a change of the parameters: nothing with another force law, and
+    /// without points to compare where F₀ or `u_ins` changed, with which the law is scaled.
+    #[must_use]
+    pub fn after_change(mut self, parameters: &Parameters) -> Option<Self> {
+        parameters.multilinear.as_ref()?;
+        let scales = Statics::new(parameters).map(|statics| scales(statics.body()));
+        if scales.is_ok_and(|scales| scales != self.scales) {
+            "scaled with F0 and u_ins, which were changed after it was read, as by --set; not drawn"
+                .clone_into(&mut self.note);
+            (self.points, self.doubts) = (Vec::new(), Vec::new());
+        }
+        Some(self)
+    }
+}
+
+/// Returns whether an oscillator has the parameter called `name`: those of a geometry are not its own.
+pub fn is_of_oscillator(name: &str) -> bool {
+    let geometry = GROUPS.iter().find(|(group, _)| *group == KINEMATICS_GROUP);
+    name == GRAVITY || geometry.is_some_and(|(_, names)| !names.contains(&name))
+}
+
+fn scales(body: &Body) -> [Sides; 2] {
+    [body.strength, body.instability]
 }
 
 /// Makes the force law of a capacity curve, if `[force_law]` states one. All tables have been applied;
@@ -104,12 +147,14 @@ pub fn apply_curve(
             units: [1.0; 2],
             is_spectral: false,
             file: place.name().to_owned(),
+            header: None,
         },
         _ => {
             let message = "a capacity curve is one of file = \"FILE\" and curve = [[u, F], …]; give one";
             return Err(refused(message.to_owned()));
         }
     };
+    written.refuse_mixture(table.at_height)?;
     let body = |parameters: &Parameters| match Statics::new(parameters) {
         Ok(statics) => Ok(statics.body().clone()),
         Err(error) => Err(refused(error.to_string())),
@@ -136,9 +181,14 @@ pub fn apply_curve(
     if let Some(constants) = table.oscillator {
         stand_in(parameters, constants, &law);
     }
-    parameters.multilinear = Some(law.fractions(&body(parameters)?).into());
+    let scaled_by = body(parameters)?;
+    parameters.multilinear = Some(law.fractions(&scaled_by).into());
     body(parameters)?;
-    Ok(Some(Curve { file: path, note: law.note(), points: law.points }))
+    let is_of_oscillator = table.oscillator.is_some();
+    let doubts = if is_of_oscillator { Vec::new() } else { law.doubts(&scaled_by) };
+    let note = [&[law.note()], &*doubts].concat().join("; ");
+    let scales = scales(&scaled_by);
+    Ok(Some(Curve { file: path, points: law.points, note, doubts, is_of_oscillator, scales }))
 }
 
 /// Reads the keys of a capacity curve with their place, and refuses others beside them.
@@ -163,7 +213,7 @@ fn stated(
     let table = file.read_value(&Spanned::new(span.clone(), DeValue::Table(table)));
     let table: CurveTable = table.map_err(|fault| place.error(fault.span, fault.message))?;
     if table.oscillator.is_some() {
-        let of_wall = geometry.keys().find(|key| key.get_ref() != "gravity");
+        let of_wall = geometry.keys().find(|key| key.get_ref() != GRAVITY);
         let of_wall = of_wall.or(force_law.keys().find(|key| key.get_ref() == "at_height"));
         other = other.or(of_wall.map(|key| (key, "a wall, and no oscillator has it")));
     }
@@ -183,6 +233,8 @@ struct Written {
     units: [f64; 2],
     is_spectral: bool,
     file: String,
+    /// The name above the displacements and its line, of a file.
+    header: Option<(String, usize)>,
     /// The line of each point.
     lines: Vec<usize>,
 }
@@ -214,7 +266,23 @@ impl Written {
             lines.push(line);
             Ok(())
         })?;
-        Ok(Self { points, units: [length, unit], is_spectral, file: file.to_owned(), lines })
+        let header = Some((columns.names()[0].text().to_owned(), columns.line()));
+        Ok(Self { points, units: [length, unit], is_spectral, file: file.to_owned(), header, lines })
+    }
+
+    /// Refuses a name of the displacements that says another thing than how they would be read.
+    fn refuse_mixture(&self, at_height: Option<f64>) -> Result<(), FileError> {
+        let Some((name, line)) = &self.header else { return Ok(()) };
+        let reason = match (name.as_str(), self.is_spectral, at_height) {
+            ("d*", _, Some(_)) => "d* is not measured at a height; leave at_height out, or name them d or u",
+            ("d*", false, None) => "d* goes with accelerations a*; beside forces give u, which is λ d*",
+            ("u", true, None) => {
+                "beside accelerations they would be read as d* = u/λ; name them d*, give forces beside u, or \
+                 give the at_height where u was measured"
+            }
+            _ => return Ok(()),
+        };
+        Err(FileError::on_line(&*self.file, *line, format!("the displacements are named {name}: {reason}")))
     }
 
     /// Returns the points as u \[m\] and F \[N\] of Eq. (12), of displacements `lever` u; without the origin.
@@ -242,86 +310,6 @@ impl Written {
             if self.is_spectral { [participation, participation * effective_mass] } else { [1.0; 2] };
         let scales = [lever.map_or(u, |lever| 1.0 / lever) * self.units[0], force * self.units[1]];
         Ok(self.points.iter().map(|point| [point[0] * scales[0], point[1] * scales[1]]).collect())
-    }
-}
-
-/// A law of some of the points of a curve.
-struct Law {
-    points: Vec<[f64; 2]>,
-    /// The place of the origin among the points.
-    zero: usize,
-    /// The places of the points that are kept, rising.
-    kept: Vec<usize>,
-    /// The largest |ΔF| between law and curve over the largest |F| \[-\], and its u \[m\].
-    off: [f64; 2],
-}
-
-/// The end of a side of a law: its point, dF/du of the last line, and |u| where that is 0.
-struct End {
-    point: [f64; 2],
-    slope: f64,
-    u: f64,
-}
-
-impl Law {
-    fn new(mut points: Vec<[f64; 2]>, tolerance: f64) -> Self {
-        let zero = points.partition_point(|point| point[0] < 0.0);
-        points.insert(zero, [0.0; 2]);
-        let largest = points.iter().fold(0.0_f64, |largest, point| largest.max(point[1].abs()));
-        let (mut kept, mut off) = (vec![0, zero], [0.0; 2]);
-        let mut open = vec![[0, zero], [zero, points.len() - 1]];
-        while let Some([from, to]) = open.pop() {
-            let [[u0, f0], [u1, f1]] = [points[from], points[to]];
-            let away = |at: usize| {
-                let [u, force] = points[at];
-                [((force - f0 - (f1 - f0) * (u - u0) / (u1 - u0)) / largest).abs(), u]
-            };
-            let farthest = (from + 1..to).max_by(|a, b| away(*a)[0].total_cmp(&away(*b)[0]));
-            match farthest.map(|at| (at, away(at))) {
-                Some((at, away)) if away[0] > tolerance => open.extend([[from, at], [at, to]]),
-                farthest => {
-                    kept.push(to);
-                    off = farthest.map(|(_, away)| away).filter(|away| away[0] > off[0]).unwrap_or(off);
-                }
-            }
-        }
-        kept.sort_unstable();
-        kept.dedup();
-        Self { points, zero, kept, off }
-    }
-
-    /// The ends of u > 0 and, where the curve has that side, of u < 0.
-    fn ends(&self) -> impl Iterator<Item = End> {
-        let count = self.kept.len();
-        let pairs = [Some([count - 2, count - 1]), (self.zero > 0).then_some([1, 0])];
-        pairs.into_iter().flatten().map(|pair| {
-            let [[u0, f0], point] = pair.map(|place| self.points[self.kept[place]]);
-            let slope = (point[1] - f0) / (point[0] - u0);
-            End { point, slope, u: (point[0] - point[1] / slope).abs() }
-        })
-    }
-
-    /// Returns the corners [u/`u_ins`, F/F₀] on a body.
-    fn fractions(&self, body: &Body) -> Vec<[f64; 2]> {
-        let fraction = |[u, force]: [f64; 2]| [u / body.instability.of(u), force / body.strength.of(u)];
-        let corners = self.kept.iter().filter(|at| **at != self.zero).map(|at| self.points[*at]);
-        let is_mirrored = self.zero == 0 && body.strength != Sides::both(body.strength.positive);
-        let mirrored = corners.clone().rev().filter(|_| is_mirrored).map(|point| point.map(|number| -number));
-        mirrored.chain(corners.clone()).map(fraction).collect()
-    }
-
-    fn note(&self) -> String {
-        let [kept, all] = [self.kept.len(), self.points.len()].map(|count| count - 1);
-        let [off, u] = self.off;
-        let mut note = format!(
-            "{kept} of {all} points, ΔF at most {:.3} % of the largest F, at u = {u:.4} m",
-            100.0 * off
-        );
-        for End { point: [last, _], u, .. } in self.ends().filter(|end| end.point[1] != 0.0) {
-            // writing to a String cannot fail
-            let _ = write!(note, "; beyond its last point, u = {last:.4} m, F falls to 0 at |u| = {u:.4} m");
-        }
-        note
     }
 }
 

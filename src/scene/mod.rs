@@ -11,6 +11,7 @@ mod curve;
 mod document;
 mod error;
 mod keys;
+mod law;
 mod motion;
 mod parameter;
 mod schema;
@@ -30,7 +31,7 @@ use crate::wall::{Bar, Kinematics, OF_RECTANGLE, Parameters, is_computable, usag
 
 pub use crate::variables::GROUPS;
 pub use body::{BODIES, BodyTable, LoadTable, OF_BODY, OpeningTable, PartTable};
-pub use curve::{Curve, CurveTable, apply_curve};
+pub use curve::{Curve, CurveTable, apply_curve, is_of_oscillator};
 pub use document::{Document, read_shape};
 pub use keys::{Group, KINEMATICS, POINTS, TieTables};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL};
@@ -178,7 +179,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Value`] naming the variable, the value and the limit.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), SceneError> {
-        parameter::set_from_text(&mut self.parameters, name, text)
+        parameter::set_from_text(&mut self.parameters, &mut self.curve, name, text)
     }
 
     /// Sets how long the scene runs, the step of its output \[s\] and its limit states, those that are given.

@@ -179,7 +179,15 @@ pub fn set_names() -> impl Iterator<Item = &'static str> {
 }
 
 /// Sets a parameter from text: a number, or the name of an item with or without quotes.
-pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str) -> Result<(), SceneError> {
+/// Tells the curve of the force law.
+pub(super) fn set_from_text(
+    parameters: &mut Parameters,
+    curve: &mut Option<Curve>,
+    name: &str,
+    text: &str,
+) -> Result<(), SceneError> {
+    let refused = |message| SceneError::Value { message };
+    curve.as_ref().map_or(Ok(()), |curve| curve.refuse(name)).map_err(refused)?;
     if set_names().all(|known| known != name) {
         let all: Vec<_> = set_names().collect();
         let meant = suggestion(name, all.iter().copied());
@@ -210,9 +218,9 @@ pub(super) fn set_from_text(parameters: &mut Parameters, name: &str, text: &str)
     if OF_BAR.contains(&name) {
         parameters.bar = None;
     }
-    set(parameters, name, &value)
-        .and_then(|()| follow_bar(parameters))
-        .map_err(|message| SceneError::Value { message })
+    set(parameters, name, &value).and_then(|()| follow_bar(parameters)).map_err(refused)?;
+    *curve = curve.take().and_then(|curve| curve.after_change(parameters));
+    Ok(())
 }
 
 fn set(parameters: &mut Parameters, name: &str, value: &Value) -> Result<(), String> {

@@ -181,12 +181,95 @@ fn the_example_reads_its_curve() {
     let scene = Scene::read(&crate::root().join("examples/capacity_curve.toml")).unwrap();
     let curve = scene.curve.as_ref().unwrap();
     assert!(curve.note.starts_with("14 of 15 points, ΔF at most 0.128 %"), "{}", curve.note);
-    assert!(
-        curve.note.contains("beyond its last point, u = 0.1325 m, F falls to 0 at |u| ="),
-        "{}",
-        curve.note
-    );
+    let end = "beyond its last point, u = 0.1225 m, F falls to 0 at |u| =";
+    assert!(curve.note.contains(end), "{}", curve.note);
+    // it fits its geometry
+    assert_eq!(curve.doubts, [""; 0]);
     assert!(Wall::new(&scene.parameters).unwrap().omega1() > 0.0 && u_of(&scene).len() > 1000);
+}
+
+/// A header that says another thing than how its numbers would be read is refused, at its line.
+#[test]
+fn names_of_displacements_are_believed() {
+    let oscillator = "oscillator = { effective_mass = 800.0, participation = 1.2 }";
+    for (geometry, key, header, words) in [
+        (FREE, "", "u [mm],a* [g]", Some("read as d* = u/λ; name them d*")),
+        (FREE, "", "d* [mm],F* [kN]", Some("d* goes with accelerations a*; beside forces give u")),
+        (
+            FREE,
+            "at_height = 2.0",
+            "d* [mm],a* [g]",
+            Some("d* is not measured at a height; leave at_height out"),
+        ),
+        ("", oscillator, "d* [mm],F [kN]", Some("d* goes with accelerations")),
+        (FREE, "at_height = 2.0", "u [mm],a* [g]", None),
+        (FREE, "", "d* [mm],a* [g]", None),
+        (FREE, "", "u [mm],F [kN]", None),
+    ] {
+        let text = format!("{geometry}[force_law]\nfile = \"pushover.csv\"\n{key}\n");
+        let error = read("header", &text, &format!("# of a test\n{header}\n1,0.1\n200,0\n")).err();
+        assert_eq!(error.is_some(), words.is_some(), "{header}: {error:?}");
+        for (error, words) in error.iter().zip(words) {
+            assert!(error.contains("pushover.csv, line 2: the displacements are named"), "{error}");
+            assert!(error.contains(words), "{header}: {error}");
+        }
+    }
+}
+
+/// A curve that ends elsewhere than the wall of its geometry, or whose forces are those of another unit, is
+/// told. F₀ = 1800 · 9.81 · 4 · 0.4/10 N and u_ins = 0.2 m; the curve of 1 kN ends at 0.22 m.
+#[test]
+fn a_curve_that_does_not_fit_its_geometry_is_told() {
+    let doubts = |curve: &str| {
+        let text = format!("{FREE}[force_law]\ncurve = {curve}\n");
+        let curve = read("doubts", &text, "").unwrap().curve.unwrap();
+        assert!(curve.doubts.iter().all(|doubt| curve.note.contains(doubt)), "{}", curve.note);
+        curve.doubts
+    };
+    let end = doubts("[[0.02, 1000.0], [0.22, 0.0]]");
+    let words =
+        "F is 100 N at u_ins = 0.2000 m, beyond which the wall is overturned, and 0 at |u| = 0.2200 m";
+    assert!(end.len() == 1 && end[0].contains(words), "{end:?}");
+    // a side of its own that ends before u_ins
+    let end = doubts("[[-0.18, 0.0], [-0.02, -1600.0], [0.02, 1000.0], [0.2, 0.0]]");
+    assert!(end.len() == 1 && end[0].contains("F is 200 N at u_ins = 0.2000 m"), "{end:?}");
+    assert!(doubts("[[0.02, 1000.0], [0.2019, 0.0]]").is_empty());
+    let unit = doubts("[[0.02, 1.0e6], [0.2, 0.0]]");
+    assert!(unit.len() == 1 && unit[0].contains("the largest F is 353.947 F0"), "{unit:?}");
+    assert_eq!(doubts("[[0.02, 100.0], [0.2, 0.0]]").len(), 1);
+}
+
+/// Each side is measured by its own largest force; a law of all points has no deviation to tell.
+#[test]
+fn a_weak_side_is_kept() {
+    let text =
+        format!("{FREE}[force_law]\ncurve = [[-0.2, 0.0], [-0.01, -1.0], [0.02, 1500.0], [0.2, 0.0]]\n");
+    let scene = read("weak", &text, "").unwrap();
+    assert_eq!(scene.parameters.multilinear.as_ref().unwrap().len(), 4);
+    assert!(scene.curve.unwrap().note.starts_with("4 of 4 points; the largest F is 0."));
+}
+
+/// A change of the parameters leaves no curve that is not the law, and an oscillator has no geometry.
+#[test]
+fn a_curve_follows_changes_of_its_wall() {
+    let text = format!("{FREE}[force_law]\ncurve = [[0.02, 1000.0], [0.2, 0.0]]\n");
+    let scene = read("changes", &text, "").unwrap();
+    let changed = |name: &str, value: &str| {
+        let mut scene = scene.clone();
+        scene.set(name, value).unwrap();
+        scene.curve
+    };
+    assert_eq!(changed("xi", "0.03"), scene.curve);
+    assert_eq!(changed("force_law", "bilinear"), None);
+    let scaled = changed("thickness", "0.3").unwrap();
+    assert!(scaled.points.is_empty() && scaled.note.starts_with("scaled with F0 and u_ins"));
+    let oscillator = "[force_law]\ncurve = [[0.02, 1000.0], [0.2, 0.0]]\n\
+                      oscillator = { effective_mass = 800.0, participation = 1.2 }\n[damping]\nxi = 0.05\n";
+    let mut oscillator = read("changes", oscillator, "").unwrap();
+    let error = oscillator.set("height", "4").unwrap_err().to_string();
+    assert!(error.contains("height is that of a wall, and no oscillator has it"), "{error}");
+    oscillator.set("xi", "0.03").unwrap();
+    assert_eq!(oscillator.curve.unwrap().points.len(), 3);
 }
 
 /// What no law can have is refused with the row and what to do.

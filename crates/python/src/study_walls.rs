@@ -27,7 +27,9 @@ pub(crate) fn named_walls(
             }
             let (parameters, floors) = (wall.scene.parameters.clone(), wall.scene.floors.clone());
             let assumed = wall.assumed.clone();
-            walls.push(NamedWall { floors, assumed, ..NamedWall::new(name.clone(), parameters) });
+            let is_oscillator = wall.scene.curve.as_ref().is_some_and(|curve| curve.is_of_oscillator);
+            let wall = NamedWall::new(name.clone(), parameters);
+            walls.push(NamedWall { floors, is_oscillator, assumed, ..wall });
         } else {
             walls.push(of_parameters(name, wall.cast::<PyDict>()?)?);
         }

@@ -257,6 +257,7 @@ impl Wall {
         curve: Option<&str>,
     ) -> PyResult<Self> {
         set_all(&mut scene, parameters)?;
+        scene.curve = scene.curve.and_then(|curve| curve.after_change(&scene.parameters));
         curve.map_or(Ok(()), |curve| set_curve(&mut scene, parameters, curve))?;
         assumed.retain(|name| parameters.contains(name).is_ok_and(|is_stated| !is_stated));
         let start = if parameters.contains("u_start")? { Some(scene.parameters.u_start) } else { start };
@@ -337,7 +338,9 @@ pub(crate) fn set_all(scene: &mut Scene, parameters: &Bound<'_, PyDict>) -> PyRe
     let points = parameters.get_item(POINTS)?.map(|points| points.extract::<Vec<[f64; 2]>>()).transpose();
     let points = points.map_err(|_| PyTypeError::new_err("points must be pairs [[u/u_ins, F/F0], ...]"))?;
     match (law_of_points, points) {
-        (true, Some(points)) => scene.parameters.multilinear = Some(points.into()),
+        (true, Some(points)) => {
+            (scene.parameters.multilinear, scene.curve) = (Some(points.into()), None);
+        }
         (true, None) if scene.parameters.multilinear.is_none() => {
             return Err(refused(format!(
                 "force_law = \"multilinear\" needs {POINTS} = [[u/u_ins, F/F0], ...] beside it"

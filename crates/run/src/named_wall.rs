@@ -13,6 +13,8 @@ pub struct NamedWall {
     pub parameters: Parameters,
     /// Storeys between ground and wall. Records shake the ground, and intensities are those of the ground.
     pub floors: Option<Floors>,
+    /// Whether an oscillator stands in place of its geometry.
+    pub is_oscillator: bool,
     /// Those of [`DECIDING`] that nobody stated.
     pub assumed: Vec<&'static str>,
     /// Parameters that its file states, and numbers of its bar by their names outside of `[tie.bar]`; `None`
@@ -51,6 +53,7 @@ impl NamedWall {
             name: name.into(),
             parameters,
             floors: None,
+            is_oscillator: false,
             assumed: Vec::new(),
             stated: None,
             entry: 0,

@@ -64,7 +64,8 @@ fn parse(
         let of_scene = cells.find(|(name, _)| **name == SCENE).map(|(_, file)| scene_of(&file)).transpose();
         let (of_scene, mut stated) =
             of_scene.map_err(|error| fail(row.line, format!("scene: {error}")))?.unwrap_or_default();
-        (scene.parameters, scene.floors) = (of_scene.parameters, of_scene.floors);
+        (scene.parameters, scene.floors, scene.curve) =
+            (of_scene.parameters, of_scene.floors, of_scene.curve);
         let cells = names.iter().zip(&mut thousands).zip(row.cells());
         for ((&column, thousands), cell) in
             cells.filter(|((name, _), cell)| !cell.is_empty() && **name != SCENE)
@@ -104,7 +105,9 @@ fn parse(
             return Err(fail(row.line, message));
         }
         let (parameters, floors) = (scene.parameters.clone(), scene.floors.take());
-        walls.push(NamedWall { floors, check, ..NamedWall::new(wall, parameters).stating(stated) });
+        let is_oscillator = scene.curve.take().is_some_and(|curve| curve.is_of_oscillator);
+        let wall = NamedWall::new(wall, parameters).stating(stated);
+        walls.push(NamedWall { floors, is_oscillator, check, ..wall });
     }
     for (column, thousands) in names.iter().zip(thousands) {
         thousands.check().map_err(|fault| in_column(column, &fault))?;

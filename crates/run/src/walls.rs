@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use files::{Described, FileError, Schema, Tables, TomlFile, names, object, suggestion, tables};
 use rocking_wall::scene::{
-    BODIES, Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, TieTables, apply_tables,
-    parameters, read_floors,
+    BODIES, Curve, Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, TieTables,
+    apply_tables, parameters, read_floors,
 };
 use rocking_wall::wall::{Bar, OF_RECTANGLE, Parameters};
 use serde::Deserialize;
@@ -55,8 +55,8 @@ pub struct WallEntry {
     pub name: Option<String>,
     /// Source of its parameters.
     pub source: WallSource,
-    /// The file of the capacity curve that is its force law.
-    pub curve: Option<PathBuf>,
+    /// The capacity curve that is its force law.
+    pub curve: Option<Curve>,
     /// Storeys between ground and wall; if there are none, those of its scene.
     pub floors: Option<Floors>,
 }
@@ -220,7 +220,6 @@ fn wall(table: &Spanned<WallTable>, file: &TomlFile<'_>) -> Result<WallEntry, Fi
             || group == "bar" && bar.is_some_and(|bar| bar.contains_key(name))
     };
     let source = WallSource::Inline(Box::new(parameters), stated(is_stated));
-    let curve = curve.and_then(|curve| curve.file);
     Ok(WallEntry { name: spec.name.clone(), source, curve, floors: None })
 }
 
@@ -268,8 +267,9 @@ pub fn walls(
     match entry.source {
         WallSource::Inline(parameters, stated) => {
             let name = entry.name.unwrap_or_default();
-            inputs.extend(entry.curve);
-            Ok(vec![NamedWall { floors: entry.floors, ..NamedWall::new(name, *parameters).stating(stated) }])
+            let wall =
+                NamedWall { floors: entry.floors, ..NamedWall::new(name, *parameters).stating(stated) };
+            Ok(vec![with_curve(wall, entry.curve, inputs, warnings)])
         }
         WallSource::Table(path, line) => {
             let path = folder.join(path);
@@ -290,7 +290,6 @@ pub fn walls(
             inputs.push(file.clone());
             let (scene, stated) =
                 scene_and_stated(&file).map_err(|error| at(line, "a wall's scene", &error))?;
-            inputs.extend(scene.curve.as_ref().and_then(|curve| curve.file.clone()));
             let stem = || path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let name = entry.name.or_else(stem).unwrap_or_default();
             if scene.excitation.is_some() {
@@ -298,16 +297,31 @@ pub fn walls(
                 warnings.push(format!("wall {name:?}: {warning}"));
             }
             let floors = entry.floors.or(scene.floors);
-            Ok(vec![NamedWall { floors, ..NamedWall::new(name, scene.parameters).stating(stated) }])
+            let wall = NamedWall { floors, ..NamedWall::new(name, scene.parameters).stating(stated) };
+            Ok(vec![with_curve(wall, scene.curve, inputs, warnings)])
         }
     }
+}
+
+/// Tells what the capacity curve of a wall says of it. Adds its file, and what is improbable.
+fn with_curve(
+    wall: NamedWall,
+    curve: Option<Curve>,
+    inputs: &mut Vec<PathBuf>,
+    warnings: &mut Vec<String>,
+) -> NamedWall {
+    let Some(curve) = curve else { return wall };
+    inputs.extend(curve.file);
+    warnings.extend(curve.doubts.iter().map(|doubt| format!("wall {:?}: {doubt}", wall.name)));
+    NamedWall { is_oscillator: curve.is_of_oscillator, ..wall }
 }
 
 /// Warns of walls of a file whose height or thickness nobody stated.
 pub fn defaults<'a>(file: &str, walls: impl Iterator<Item = &'a NamedWall>) -> Vec<String> {
     let (walls, Parameters { height, thickness, .. }) = (walls.collect::<Vec<_>>(), Parameters::default());
     let warning = |(size, default): (&str, f64)| {
-        let (count, all) = (walls.iter().filter(|wall| wall.assumed.contains(&size)).count(), walls.len());
+        let is_default = |wall: &&&NamedWall| !wall.is_oscillator && wall.assumed.contains(&size);
+        let (count, all) = (walls.iter().filter(is_default).count(), walls.len());
         let told =
             format!("{file}: {count} of {all} walls have no {size}; the default of {default} m counts");
         (count > 0).then_some(told)

@@ -40,7 +40,7 @@ fn describe_draws_a_capacity_curve_over_its_law() {
     let text = printed(&folder, &["describe", "scene.toml", "--plot", "c.svg"]);
     assert_has(
         &text,
-        &["force_law", "multilinear", "of 15 points, ΔF at most", "% of the largest F, at u = "],
+        &["force_law", "multilinear", "of 15 points, ΔF at most", "% of the largest F of its side, at u = "],
     );
     assert!(content(&folder, "c.svg").contains("as given: "));
     let json = json(&folder, &["describe", "scene.toml", "--json"]);
@@ -53,7 +53,11 @@ fn describe_draws_a_capacity_curve_over_its_law() {
     let check = "xi = 0.05\n[check]\ncode = \"circolare-2019\"\nsoil = \"B\"\nbefore_activation = \"law\"\n\
                  SLV = { ag = 0.15, F0 = 2.45, TC = 0.32 }\n";
     std::fs::write(folder.join("check.toml"), format!("{oscillator}[damping]\n{check}")).unwrap();
-    fails(&folder, &["check", "check.toml"], &["height, thickness, density not stated"]);
+    let words =
+        "height, thickness, density not stated: a check needs a wall with a geometry, and an oscillator";
+    fails(&folder, &["check", "check.toml"], &[words]);
+    let other = printed(&folder, &["describe", "scene.toml", "--set", "force_law=bilinear"]);
+    assert!(other.contains("bilinear") && !other.contains("curve "), "{other}");
     let walls = scene.replace("[geometry]", "[[walls]]\nname = \"a\"\n[walls.geometry]");
     let walls = walls.replace("[force_law]", "[walls.force_law]");
     let check = check.replace("xi = 0.05\n", "");

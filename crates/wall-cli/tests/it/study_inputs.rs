@@ -143,6 +143,27 @@ fn a_wall_has_one_result_however_it_is_given() {
     assert_has(&told, &["study.toml: 1 of 1 walls have no height; the default of 4 m", "no thickness"]);
 }
 
+/// An oscillator has no geometry: none is missed, and none is uncertain. Doubts about a curve are told.
+#[test]
+fn an_oscillator_has_no_height() {
+    let folder = folder("oscillators");
+    let law = "[walls.force_law]\ncurve = [[0.01, 900.0], [0.2, 0.0]]\n";
+    let of = "oscillator = { effective_mass = 800.0, participation = 1.2 }\n";
+    let damping = "[walls.damping]\nxi = 0.05\n";
+    let wall = format!("[[walls]]\nname = \"a\"\n{law}{of}{damping}");
+    let models = |walls: &str| study(SYNTHETIC, walls).replace("\"CR\"", "\"CDC\"");
+    let told = warned(&folder, &models(&wall));
+    assert!(!told.contains("no height") && !told.contains("no thickness"), "{told}");
+    let height =
+        format!("[uncertain]\nsamples = 3\nparameters = {{ height = {{ uniform = [3, 4] }} }}\n{wall}");
+    fs::write(folder.join("uncertain.toml"), models(&height)).unwrap();
+    let words = ["wall \"a\": height is that of a wall, and no oscillator has it"];
+    fails(&folder, &["study", "ida", "uncertain.toml", "-o", "uncertain"], &words);
+    let told =
+        warned(&folder, &models(&format!("{WALL}[walls.force_law]\ncurve = [[0.01, 900.0], [0.2, 0.0]]\n")));
+    assert_has(&told, &["wall \"a\": F is ", " N at u_ins = 0.1500 m"]);
+}
+
 /// Files of the user in the folder of a study stay, and are named where a result would replace one.
 #[test]
 fn no_result_replaces_a_file_of_the_user() {

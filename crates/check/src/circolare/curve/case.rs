@@ -154,6 +154,13 @@ fn stated(parameters: &Parameters, activation: Activation, assumed: &[&str]) -> 
     if missing.is_empty() {
         return Ok(());
     }
+    if parameters.mechanism == Mechanism::RigidBody && parameters.multilinear.is_some() {
+        return Err(CheckError::wall(format!(
+            "{} not stated: a check needs a wall with a geometry, and an oscillator has none; state [geometry] \
+             in place of `oscillator`",
+            missing.join(", ")
+        )));
+    }
     Err(CheckError::wall(format!(
         "{} not stated: no default decides a verdict; state the geometry in [geometry], and a1, which makes \
          T0 and SLD of before_activation = \"law\", in [force_law]",

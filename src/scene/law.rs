@@ -1,0 +1,134 @@
+//! The force law that is made of a capacity curve.
+//!
+//! A law keeps the points from which the curve is within a tolerance: the ends of straight lines, each split
+//! where the curve is farthest from it. This is the rule of Douglas and Peucker (1973), with the distance
+//! measured along the force.
+
+use std::fmt::Write;
+use std::ops::RangeInclusive;
+
+use crate::wall::{Body, Sides};
+
+/// How far the end of a curve may be from `u_ins` without a word, of it \[-\].
+const MOST_OFF_END: f64 = 0.01;
+/// Largest forces of a curve that are probable, of F₀ \[-\].
+const USUAL_FORCES: RangeInclusive<f64> = 0.1..=3.0;
+
+/// A law of some of the points of a curve.
+pub(super) struct Law {
+    pub(super) points: Vec<[f64; 2]>,
+    /// The place of the origin among the points.
+    zero: usize,
+    /// The places of the points that are kept, rising.
+    pub(super) kept: Vec<usize>,
+    /// The largest |ΔF| between law and curve over the largest |F| of its side \[-\], and its u \[m\].
+    off: [f64; 2],
+}
+
+/// The end of a side of a law: its point, dF/du of the last line, and |u| where that is 0.
+pub(super) struct End {
+    point: [f64; 2],
+    pub(super) slope: f64,
+    pub(super) u: f64,
+}
+
+impl Law {
+    pub(super) fn new(mut points: Vec<[f64; 2]>, tolerance: f64) -> Self {
+        let zero = points.partition_point(|point| point[0] < 0.0);
+        points.insert(zero, [0.0; 2]);
+        let [left, right] = [&points[..zero], &points[zero..]].map(largest_force);
+        let (mut kept, mut off) = (vec![0, zero], [0.0; 2]);
+        let mut open = vec![[0, zero], [zero, points.len() - 1]];
+        while let Some([from, to]) = open.pop() {
+            let [[u0, f0], [u1, f1]] = [points[from], points[to]];
+            let largest = if from < zero { left } else { right };
+            let away = |at: usize| {
+                let [u, force] = points[at];
+                [((force - f0 - (f1 - f0) * (u - u0) / (u1 - u0)) / largest).abs(), u]
+            };
+            let farthest = (from + 1..to).max_by(|a, b| away(*a)[0].total_cmp(&away(*b)[0]));
+            match farthest.map(|at| (at, away(at))) {
+                Some((at, away)) if away[0] > tolerance => open.extend([[from, at], [at, to]]),
+                farthest => {
+                    kept.push(to);
+                    off = farthest.map(|(_, away)| away).filter(|away| away[0] > off[0]).unwrap_or(off);
+                }
+            }
+        }
+        kept.sort_unstable();
+        kept.dedup();
+        Self { points, zero, kept, off }
+    }
+
+    /// The ends of u > 0 and, where the curve has that side, of u < 0.
+    pub(super) fn ends(&self) -> impl Iterator<Item = End> {
+        let count = self.kept.len();
+        let pairs = [Some([count - 2, count - 1]), (self.zero > 0).then_some([1, 0])];
+        pairs.into_iter().flatten().map(|pair| {
+            let [[u0, f0], point] = pair.map(|place| self.points[self.kept[place]]);
+            let slope = (point[1] - f0) / (point[0] - u0);
+            End { point, slope, u: (point[0] - point[1] / slope).abs() }
+        })
+    }
+
+    /// Returns the corners [u/`u_ins`, F/F₀] on a body.
+    pub(super) fn fractions(&self, body: &Body) -> Vec<[f64; 2]> {
+        let fraction = |[u, force]: [f64; 2]| [u / body.instability.of(u), force / body.strength.of(u)];
+        let corners = self.kept.iter().filter(|at| **at != self.zero).map(|at| self.points[*at]);
+        let is_mirrored = self.zero == 0 && body.strength != Sides::both(body.strength.positive);
+        let mirrored = corners.clone().rev().filter(|_| is_mirrored).map(|point| point.map(|number| -number));
+        mirrored.chain(corners.clone()).map(fraction).collect()
+    }
+
+    pub(super) fn note(&self) -> String {
+        let [kept, all] = [self.kept.len(), self.points.len()].map(|count| count - 1);
+        let mut note = format!("{kept} of {all} points");
+        let [off, u] = self.off;
+        if off > 0.0 {
+            // writing to a String cannot fail
+            let percent = 100.0 * off;
+            let _ = write!(note, ", ΔF at most {percent:.3} % of the largest F of its side, at u = {u:.4} m");
+        }
+        for End { point: [last, _], u, .. } in self.ends().filter(|end| end.point[1] != 0.0) {
+            let _ = write!(note, "; beyond its last point, u = {last:.4} m, F falls to 0 at |u| = {u:.4} m");
+        }
+        note
+    }
+
+    /// Says where the curve does not fit the geometry of a body: an end other than `u_ins`, an improbable F.
+    pub(super) fn doubts(&self, body: &Body) -> Vec<String> {
+        let mut doubts = Vec::new();
+        for End { point: [last, _], u: end, .. } in self.ends() {
+            let (u_ins, f0) = (body.instability.of(last), body.strength.of(last));
+            if (end / u_ins - 1.0).abs() > MOST_OFF_END {
+                let force = self.force(u_ins.copysign(last));
+                doubts.push(format!(
+                    "F is {force:.0} N at u_ins = {u_ins:.4} m, beyond which the wall is overturned, and 0 at \
+                     |u| = {end:.4} m: give the geometry of the curve, or an oscillator"
+                ));
+            }
+            let side = if last < 0.0 { &self.points[..self.zero] } else { &self.points[self.zero..] };
+            let ratio = largest_force(side) / f0;
+            if !USUAL_FORCES.contains(&ratio) {
+                let [least, most] = [USUAL_FORCES.start(), USUAL_FORCES.end()];
+                doubts.push(format!(
+                    "the largest F is {ratio:.3} F0 of the geometry, not {least} to {most}: check the unit"
+                ));
+            }
+        }
+        doubts
+    }
+
+    /// The force of the law \[N\] at u \[m\].
+    fn force(&self, u: f64) -> f64 {
+        let above = self.kept.partition_point(|at| self.points[*at][0] < u);
+        let to = above.clamp(1, self.kept.len() - 1);
+        let [[u0, f0], [u1, f1]] = [to - 1, to].map(|place| self.points[self.kept[place]]);
+        f0 + (f1 - f0) * (u - u0) / (u1 - u0)
+    }
+}
+
+/// The largest |F| of points \[N\].
+fn largest_force(points: &[[f64; 2]]) -> f64 {
+    points.iter().fold(0.0, |largest, point| largest.max(point[1].abs()))
+}
