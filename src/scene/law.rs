@@ -103,8 +103,8 @@ impl Law {
             if (end / u_ins - 1.0).abs() > MOST_OFF_END {
                 let force = self.force(u_ins.copysign(last));
                 doubts.push(format!(
-                    "F is {force:.0} N at u_ins = {u_ins:.4} m, beyond which the wall is overturned, and 0 at \
-                     |u| = {end:.4} m: give the geometry of the curve, or an oscillator"
+                    "F is {force:.0} N at u_ins = {u_ins:.4} m, beyond which the wall is overturned, and 0 \
+                     at |u| = {end:.4} m: give the geometry of the curve, or an oscillator"
                 ));
             }
             let side = if last < 0.0 { &self.points[..self.zero] } else { &self.points[self.zero..] };

@@ -101,14 +101,14 @@ impl Samples {
     /// Makes the walls of the study.
     ///
     /// # Errors
-    /// [`SceneError::Value`] for a value that a parameter cannot have, or a parameter that an oscillator lacks.
+    /// [`SceneError::Value`] for a value that a parameter cannot have, or one that an oscillator lacks.
     pub fn of_walls(&self, walls: &[NamedWall]) -> Result<Vec<NamedWall>, SceneError> {
         let mut all = Vec::with_capacity(walls.len() * self.rows.len());
         for wall in walls {
             let mut names = self.parameters.iter();
             if let Some(name) = names.find(|name| wall.is_oscillator && !is_of_oscillator(name)) {
                 let message = format!(
-                    "wall {:?}: {name} is that of a wall, and no oscillator has it; leave it out of [uncertain]",
+                    "wall {:?}: {name} is that of a wall, and no oscillator has it; leave it out",
                     wall.name
                 );
                 return Err(SceneError::Value { message });

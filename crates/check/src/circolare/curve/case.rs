@@ -156,8 +156,8 @@ fn stated(parameters: &Parameters, activation: Activation, assumed: &[&str]) -> 
     }
     if parameters.mechanism == Mechanism::RigidBody && parameters.multilinear.is_some() {
         return Err(CheckError::wall(format!(
-            "{} not stated: a check needs a wall with a geometry, and an oscillator has none; state [geometry] \
-             in place of `oscillator`",
+            "{} not stated: a check needs a wall with a geometry, and an oscillator has none; state \
+             [geometry] in place of `oscillator`",
             missing.join(", ")
         )));
     }
