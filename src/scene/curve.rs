@@ -51,8 +51,8 @@ tables! {
         /// Height at which the displacements are measured \[m\]; by default they are u, and d* beside a*.
         #[key(exclusiveMinimum = 0, maximum = 1000)]
         pub at_height: Option<f64>,
-        /// Largest deviation of the law from the curve, over the largest force \[-\].
-        #[key(minimum = 0, maximum = 0.1, default = DEFAULT_TOLERANCE)]
+        /// Largest deviation of the law from the curve, over the largest force \[-\]; by default 0.001.
+        #[key(minimum = 0, maximum = 0.1)]
         pub curve_tolerance: Option<f64>,
         /// What rocks, in place of a geometry.
         pub oscillator: Option<OscillatorTable>,

@@ -163,7 +163,7 @@ impl Wall {
     /// wall.
     pub fn has_equal_sides(&self) -> bool {
         let one_tied = self.ties().iter().any(|tie| tie.holds(1.0) != tie.holds(-1.0));
-        self.statics.body.strength.positive == self.statics.body.strength.negative
+        self.statics.has_equal_sides()
             && self.restitution.positive == self.restitution.negative
             && self.rotations.as_ref().is_none_or(FullRotations::has_equal_sides)
             && self.sides().count() == 2

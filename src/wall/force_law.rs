@@ -96,6 +96,15 @@ impl RestoringForce {
         Ok(Self { positive, negative, elastic_stiffness, elastic_fraction })
     }
 
+    /// Returns whether both sides are the same: F(−u) = −F(u).
+    pub(super) fn is_odd(&self) -> bool {
+        let Side { corners, lines, end } = &self.negative;
+        let is_mirrored = |(own, other): (&Line, &Line)| *own == other.mirrored();
+        corners == &self.positive.corners
+            && end == &self.positive.end
+            && self.positive.lines.iter().zip(lines).all(is_mirrored)
+    }
+
     /// Returns whether both sides have the same elastic branch: one line through the origin.
     pub(super) fn is_straight(&self) -> bool {
         self.elastic_stiffness.is_some_and(|k1| self.negative.lines[0].slope == k1)

@@ -79,6 +79,11 @@ impl Statics {
         self.force.side(sign).corners.first().copied().unwrap_or(0.0)
     }
 
+    /// Returns whether both sides are alike but for ties: the strength of the body, and the force.
+    pub fn has_equal_sides(&self) -> bool {
+        self.body.strength.positive == self.body.strength.negative && self.force.is_odd()
+    }
+
     /// The largest |F| of the wall without its ties on the side of `sign` \[N\].
     pub fn largest_own_force(&self, sign: f64) -> f64 {
         self.largest_own_force_from(sign, 0.0)

@@ -46,6 +46,12 @@ fn sides_are_those_that_a_wall_can_rock_to() {
         (wall.sides().collect::<Vec<_>>(), wall.has_equal_sides())
     };
     assert_eq!(sides(&Parameters::default()), (vec![1.0, -1.0], true));
+    // a law of two sides on a body whose sides are equal
+    for (force, is_equal) in [(-0.9, true), (-0.5, false)] {
+        let points = [[-1.0, 0.0], [-0.02, force], [0.02, 0.9], [1.0, 0.0]];
+        let law = Parameters { multilinear: Some(points.into()), ..Parameters::default() };
+        assert_eq!(sides(&law), (vec![1.0, -1.0], is_equal), "{force}");
+    }
     for (rocking, side) in [(Rocking::OneSidedPositive, 1.0), (Rocking::OneSidedNegative, -1.0)] {
         assert_eq!(sides(&Parameters { rocking, ..undamped() }), (vec![side], false));
     }

@@ -99,6 +99,19 @@ fn a_tie_that_takes_less_than_half_does_not_limit_slv() {
     }
 }
 
+/// A law that is weaker for u < 0 is checked to that side, also where the body has equal sides.
+#[test]
+fn the_weaker_side_of_a_law_governs() {
+    let scene = include_str!("../../../../scenes/checked_parapet.toml");
+    let zeta = |points: &str| {
+        let law = format!("force_law = \"multilinear\"\npoints = {points}");
+        checked(&scene.replace("a1 = 0.05", &law)).unwrap().governs.zeta
+    };
+    let (strong, weak) = (zeta("[[0.02, 0.9], [1.0, 0.0]]"), zeta("[[0.02, 0.5], [0.6, 0.0]]"));
+    assert!(weak < 0.7 * strong, "{weak} {strong}");
+    assert_eq!(zeta("[[-0.6, 0.0], [-0.02, -0.5], [0.02, 0.9], [1.0, 0.0]]"), weak);
+}
+
 /// An eccentricity that follows the hinge is the same for both sides, also beyond the set-back of the top.
 #[test]
 fn an_eccentricity_that_follows_the_hinge_is_that_of_both_sides() {

@@ -69,10 +69,10 @@ impl<'a> Case<'a> {
         // the bodies of a rectangle are alike on both sides with any hinge
         let is_given = rule == Some(Hinge::Given) && !parameters.is_rectangle();
         let hinge_ratio = if is_given { parameters.hinge_ratio } else { 0.5 };
-        let body = Statics::new(&Parameters { hinge_ratio, ..parameters.clone() })?;
-        let body = body.body();
+        let statics = Statics::new(&Parameters { hinge_ratio, ..parameters.clone() })?;
+        let body = statics.body();
         let one_tied = parameters.ties().any(|tie| tie.stiffness > 0.0 && tie.side != TieSide::Both);
-        let alike = body.strength.positive == body.strength.negative
+        let alike = statics.has_equal_sides()
             && parameters.rocking == Rocking::TwoSided
             && !one_tied
             && [1.0, -1.0].iter().all(|sign| level::left_out(&parameters, *sign) == 0.0);
