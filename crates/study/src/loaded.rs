@@ -189,6 +189,7 @@ impl LoadedStudy {
         report.weights = Weights::of(&weights);
         check_unique("records", study.records().iter().map(|record| &record.name)).map_err(in_file)?;
         warnings.extend(alike(&study));
+        warnings.extend(study.unlike_stripes());
         let given = study.given_records();
         warnings.extend(copies(&given));
         let effective = report.weights.effective(study.records().len()) / study.polarity().signs() as f64;

@@ -213,6 +213,29 @@ impl Study {
         peaks.max_by(f64::total_cmp).and_then(Warning::of_peak)
     }
 
+    /// Warns of stripes whose records have a median intensity beyond half or twice that of the stripe.
+    pub fn unlike_stripes(&self) -> Vec<String> {
+        let Levels::Stripes(levels) = &self.levels else { return Vec::new() };
+        let warning = |(place, &level): (usize, &f64)| {
+            let records = self.records.iter().filter(|record| record.listed.stripe == Some(place));
+            let mut own: Vec<f64> =
+                records.filter_map(|record| self.measure.of(&record.motion).ok()).collect();
+            own.sort_by(f64::total_cmp);
+            let median = (own.get(own.len().checked_sub(1)? / 2)? * own.get(own.len() / 2)?).sqrt();
+            let unit = self.measure.unit();
+            (!(0.5..=2.0).contains(&(median / level))).then(|| {
+                format!(
+                    "stripe {} states {}, but its records, with their factors, have a median of {}; check \
+                     the factors, their unit and the measure",
+                    place + 1,
+                    unit.shown(level),
+                    unit.shown(median)
+                )
+            })
+        };
+        levels.iter().enumerate().filter_map(warning).collect()
+    }
+
     /// Returns a wall with the damping and impact of a model.
     pub fn wall(&self, wall: usize, model: usize) -> Wall {
         self.motion(wall, model).wall().clone()

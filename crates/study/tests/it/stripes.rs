@@ -98,6 +98,20 @@ fn the_fit_over_levels_is_that_of_scipy() {
     assert!((fitted.dispersion / 0.690_080_391_625_131_4 - 1.0).abs() < 1e-6, "{fitted:?}");
 }
 
+/// The records of the low list have 2 m/s² × 0.5, 0.6 and 0.5: a median of 1 m/s², a fifth of 0.5 g.
+#[test]
+fn stripes_unlike_their_records_are_warned_of() {
+    let folder = folder("stripes_unlike");
+    let unlike = |levels: &str| -> Vec<String> {
+        let warnings = load(&folder, levels, RECORDS).unwrap().warnings;
+        warnings.into_iter().filter(|warning| warning.contains("a median of")).collect()
+    };
+    assert_eq!(unlike(STRIPES), [""; 0]);
+    let [warning] = &unlike(&STRIPES.replace("high.csv", "low.csv"))[..] else { panic!("one warning") };
+    assert!(warning.starts_with("stripe 3 states 4.90332 m/s² (0.5 g)"), "{warning}");
+    assert!(warning.contains("a median of 1 m/s² (0.101972 g); check"), "{warning}");
+}
+
 #[test]
 fn wrong_stripes_are_refused() {
     let folder = folder("stripes_wrong");
