@@ -88,22 +88,7 @@ fn parse(
                 scene.set(column, choice(&cell)).map_err(|error| fail(row.line, error.to_string()))?;
             }
         }
-        let wall = wall.filter(|name| !NO_NAMES.split(' ').any(|none| name.eq_ignore_ascii_case(none)));
-        let Some(wall) = wall else {
-            let message = "the wall has no name, or one of a gap or a summary, such as `nan` and `mean`; \
-                           write another in the column `name`, or delete the row";
-            return Err(fail(row.line, message.to_owned()));
-        };
-        if stated.is_empty() && names.len() > 1 {
-            let message = "the wall has a name and no value; write one in a column, or delete the row";
-            return Err(fail(row.line, message.to_owned()));
-        }
-        let gap = WITHOUT_GAPS.into_iter().find(|name| names.contains(name) && !stated.contains(name));
-        if let Some(gap) = gap {
-            let message =
-                format!("the wall {wall:?} has no {gap}; write it, or delete the row or the column");
-            return Err(fail(row.line, message));
-        }
+        let wall = named(wall, &names, &stated).map_err(|message| fail(row.line, message))?;
         let (parameters, floors) = (scene.parameters.clone(), scene.floors.take());
         let is_oscillator = scene.curve.take().is_some_and(|curve| curve.is_of_oscillator);
         let wall = NamedWall::new(wall, parameters).stating(stated);
@@ -119,6 +104,28 @@ fn parse(
         ));
     }
     Ok(walls)
+}
+
+/// Returns the name of a wall, whose row states these parameters.
+///
+/// # Errors
+/// A row without a name, without a value, or with a gap that no default may fill.
+fn named(wall: Option<String>, columns: &[&str], stated: &[&str]) -> Result<String, String> {
+    let wall = wall.filter(|name| !NO_NAMES.split(' ').any(|none| name.eq_ignore_ascii_case(none)));
+    let Some(wall) = wall else {
+        return Err("the wall has no name, or one of a gap or a summary, such as `nan` and `mean`; write \
+                    another in the column `name`, or delete the row"
+            .to_owned());
+    };
+    if stated.is_empty() && columns.len() > 1 {
+        return Err("the wall has a name and no value; write one in a column, or delete the row".to_owned());
+    }
+    match WITHOUT_GAPS.into_iter().find(|name| columns.contains(name) && !stated.contains(name)) {
+        Some(gap) => {
+            Err(format!("the wall {wall:?} has no {gap}; write it, or delete the row or the column"))
+        }
+        None => Ok(wall),
+    }
 }
 
 /// What a cell states of the check, as TOML has it: a number with a point, or a choice.
