@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::scene::Scene;
 use crate::simulation::{Excitation, Progress, RunError, Simulation, segment_of};
-use crate::solver::{Demands, Peaks, State};
+use crate::solver::{Demands, Peaks, State, TieDemands};
 
 /// A shock of a sequence, from its first sample to that of the next one, or to the end of the run. The wall,
 /// its ties and what they remember go on from one to the next.
@@ -24,8 +24,8 @@ pub struct Shock {
     pub falls: bool,
     /// u at the end of this shock \[m\].
     pub residual: f64,
-    /// Demands of this shock up to overturning. The elongation of a tie is that of all shocks so far. A tie
-    /// that had broken before has the start as its time.
+    /// Demands of this shock up to overturning. The elongation of a tie is that of all shocks so far, and
+    /// a tie that had broken before keeps its time.
     pub demands: Demands,
 }
 
@@ -40,12 +40,17 @@ pub(super) fn shocks(
     let later = record.shocks().into_iter().skip(1).map(|shock| shock.start as f64 * record.step());
     let mut ends: Vec<f64> = later.filter(|start| *start < scene.stop_time).collect();
     ends.extend((!ends.is_empty()).then_some(scene.stop_time));
+    let mut before: Vec<TieDemands> = Vec::new();
     let next = |end: f64| {
         let Progress { time: start, state, .. } = *simulation.progress();
         let state = State { peaks: Peaks::at(state.displacement), ..state };
         simulation.restore(Progress { state, ..*simulation.progress() });
         let mut demands = simulation.demands(segment_of(motion, start, 0.0).from, &scene.thresholds);
+        for (tie, before) in demands.ties.iter_mut().zip(&before) {
+            tie.yielding = before.yielding;
+        }
         simulation.advance_to(end, motion, Some(&mut demands))?;
+        before.clone_from(&demands.ties);
         let (state, u_ins) = (simulation.progress().state, simulation.wall().body().instability);
         let (residual, overturned) = (state.displacement, state.overturned);
         let falls = overturned && residual.abs() >= u_ins.of(residual);

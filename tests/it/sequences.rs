@@ -99,6 +99,19 @@ fn a_tie_begins_the_second_shock_as_the_first_left_it() {
     assert_ne!(fresh.elongation.positive, elongation(1));
 }
 
+/// A tie that breaks in the first shock keeps the time of its break in the second one.
+#[test]
+fn a_broken_tie_does_not_break_again() {
+    let shock = noise(3, 0.01, 8.0);
+    let both = GroundMotion::sequence(&[motion(0.01, &shock), motion(0.01, &shock)], 6.0).unwrap();
+    let response = run(&tied(1e-3, 0.0, 0.0), both, None);
+    let [first, second] =
+        [0, 1].map(|shock: usize| response.shocks[shock].demands.ties[0].yielding.unwrap().breaks);
+    let broken = first.into_iter().zip(second).filter(|(first, _)| first.is_some());
+    let broken: Vec<_> = broken.collect();
+    assert!(!broken.is_empty() && broken.iter().all(|(first, second)| first == second), "{broken:?}");
+}
+
 /// Records of two steps are each the motion that they are at a step that divides both.
 #[test]
 fn a_finer_step_is_the_same_motion() {

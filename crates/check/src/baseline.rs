@@ -1,5 +1,7 @@
 //! The state before an intervention, which a table `[check]` names as `baseline`.
 
+use std::path::PathBuf;
+
 use files::FileError;
 use rocking_wall::scene::{Scene, SceneError};
 use run::walls::NamedWall;
@@ -12,11 +14,15 @@ use crate::file::CheckFile;
 use crate::walls::{WallCodes, WallVerdicts};
 
 /// Checks the scene of `baseline`, by its own table `[check]` or, where it has none, by this code; `None`
-/// where no baseline is named.
+/// where no baseline is named. Adds the files that are read to `inputs`.
 ///
 /// # Errors
 /// [`SceneError`] of a file that cannot be read, or of a wall that cannot be checked.
-pub fn baseline(file: &CheckFile<'_>, code: &dyn Code) -> Result<Option<Before>, SceneError> {
+pub fn baseline(
+    file: &CheckFile<'_>,
+    code: &dyn Code,
+    inputs: &mut Vec<PathBuf>,
+) -> Result<Option<Before>, SceneError> {
     let Some(path) = file.baseline() else { return Ok(None) };
     let (name, text) = (path.display().to_string(), Scene::text(&path)?);
     let before = CheckFile::parse(&name, &text)?;
@@ -26,6 +32,8 @@ pub fn baseline(file: &CheckFile<'_>, code: &dyn Code) -> Result<Option<Before>,
     }
     let scene = before.scene()?;
     let own = before.code().map(|_| read(&before)).transpose().map_err(located)?;
+    inputs.push(path);
+    inputs.extend(scene.files.iter().chain(own.iter().flat_map(|own| &own.records().files)).cloned());
     let assumed = before.assumed(&[]);
     let subject = Subject { assumed: &assumed, ..Subject::from(&scene) };
     let verdict = own.as_deref().unwrap_or(code).check(subject).map_err(located)?;
@@ -34,6 +42,7 @@ pub fn baseline(file: &CheckFile<'_>, code: &dyn Code) -> Result<Option<Before>,
 
 /// Sets the state before of walls that could be checked: that of the wall of the same name in the file of
 /// walls that `baseline` names, by its own table `[check]` or, where it has none, by the code of the wall.
+/// Adds the files that are read to `inputs`, and warnings about defaults.
 ///
 /// # Errors
 /// [`SceneError`] of a file that cannot be read, of a wall that it lacks, or of one that cannot be checked.
@@ -42,6 +51,8 @@ pub fn baselines(
     codes: &WallCodes,
     walls: &[NamedWall],
     verdicts: &mut WallVerdicts<'_>,
+    inputs: &mut Vec<PathBuf>,
+    warnings: &mut Vec<String>,
 ) -> Result<(), SceneError> {
     let Some(path) = file.baseline() else { return Ok(()) };
     let (name, text) = (path.display().to_string(), Scene::text(&path)?);
@@ -50,8 +61,9 @@ pub fn baselines(
         let message = "a baseline of walls is a file of walls, each with the name of its wall";
         return Err(FileError::whole(name, message).into());
     }
-    let states = before.walls(&[], &mut Vec::new(), &mut Vec::new())?;
+    let states = before.walls(&[], inputs, warnings)?;
     let own = before.code().map(|_| WallCodes::read(&before, &states)).transpose()?;
+    inputs.extend(own.iter().flat_map(|own| &own.shared().records().files).cloned());
     for wall in walls {
         let after = verdicts.walls.iter_mut().find(|(name, _)| *name == wall.name);
         let Some((_, Ok(after))) = after else { continue };

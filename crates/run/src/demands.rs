@@ -103,13 +103,18 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
     let fallen = if response.summary.fate.falls() { ", fallen" } else { "" };
     lines.push(("residual u".to_owned(), format!("{} mm{fallen}", figure(1000.0 * response.residual))));
     let shocks = response.shocks.iter().zip(1..);
-    lines.extend(shocks.map(|(shock, number)| (format!("shock {number}"), of_shock(shock))));
+    lines.extend(
+        shocks.map(|(shock, number)| (format!("shock {number}"), of_shock(shock, response.summary.fate))),
+    );
     lines
 }
 
 /// What a shock did to the wall, and to its ties up to then.
-fn of_shock(shock: &Shock) -> String {
+fn of_shock(shock: &Shock, fate: Fate) -> String {
     let Shock { start, u_max, u_ratio_max, residual, .. } = shock;
+    if matches!(fate, Fate::Falls { falls, .. } if falls <= *start) {
+        return format!("from {start:.3} s: had fallen before");
+    }
     let end =
         if shock.falls { "fallen".to_owned() } else { format!("u {} mm at its end", figure(1e3 * residual)) };
     let yielding = shock.demands.ties.iter().filter_map(|tie| tie.yielding);

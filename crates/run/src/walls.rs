@@ -276,7 +276,9 @@ pub fn walls(
             inputs.push(path.clone());
             let mut scene_of = |scene: &Path| {
                 inputs.push(scene.to_owned());
-                scene_and_stated(scene)
+                let found = scene_and_stated(scene)?;
+                inputs.extend(found.0.files.iter().cloned());
+                Ok(found)
             };
             let mut walls = wall_table::read(&path, &mut scene_of)
                 .map_err(|error| at(line, "a table of walls", &error))?;

@@ -88,7 +88,9 @@ impl RecordPulse {
             Self { form, period, centre, fitted: product / square, index, amplitude: None }
         };
         let better = |a: Self, b: Self| if b.index > a.index { b } else { a };
-        let mut period = SHORTEST * step;
+        let shortest = SHORTEST * step;
+        let longest = motion.duration().max(shortest);
+        let mut period = shortest;
         let mut best = fit(period, 0.0);
         while period <= motion.duration() {
             let shift = (period / CENTRES).max(step);
@@ -100,7 +102,8 @@ impl RecordPulse {
         for _ in 0..REFINEMENTS {
             let Self { period, centre, .. } = best;
             for [a, b] in [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]] {
-                best = better(best, fit(period * (a * steps[0]).exp(), centre + b * steps[1] * period));
+                let tried = (period * (a * steps[0]).exp()).clamp(shortest, longest);
+                best = better(best, fit(tried, centre + b * steps[1] * period));
             }
             if best.period == period && best.centre == centre {
                 steps = steps.map(|step| 0.5 * step);

@@ -9,8 +9,8 @@ use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Wall};
 use study::spectrum::{
-    PulseForm, RecordPulses, RockingSpectrum, Size, Slenderness, SpectrumError, onset, over_pulses,
-    over_walls,
+    PulseForm, RecordPulse, RecordPulses, RockingSpectrum, Size, Slenderness, SpectrumError, onset,
+    over_pulses, over_walls,
 };
 
 use crate::uplift::{Uplift, root, straight};
@@ -337,6 +337,20 @@ fn the_misfit_is_the_energy_that_is_left() {
     // the optimum may lie between samples
     assert!((once.index - 0.9_f64.sqrt()).abs() < 1e-3 && (once.centre - 2.5).abs() < 0.005, "{once:?}");
     assert!((twice.fitted - 2.0 * once.fitted).abs() < 1e-12 && twice.index == once.index);
+}
+
+/// Periods end at 10 steps and at the duration of the record, also where shorter or longer ones fit better.
+#[test]
+fn periods_stay_within_the_record() {
+    let spike: At = |time| if (0.0..0.015).contains(&time) { 20.0 } else { 0.0 };
+    let rise: At = |time| time;
+    for pulse in [spike, rise] {
+        let record = record(&[(pulse, 0.0, 1.0)]);
+        let found = RecordPulses::new(&bilinear(), record.clone(), 1).unwrap();
+        for RecordPulse { period, .. } in found.pulses {
+            assert!((10.0 * record.step()..=record.duration()).contains(&period), "{period}");
+        }
+    }
 }
 
 /// The amplitude just overturns the wall where the record does: 1e-6 less does not.

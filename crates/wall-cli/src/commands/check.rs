@@ -106,7 +106,9 @@ fn one(
         return console.print(&(found.text(language) + &written(arguments.label(), plot)));
     }
     let mut verdict = code.check(subject).map_err(|error| file.located(error))?;
-    verdict.before = baseline(file, code)?;
+    let mut inputs = Vec::new();
+    verdict.before = baseline(file, code, &mut inputs)?;
+    console.check_distinct(&inputs, csv.iter().chain(report))?;
     if let Some(path) = report {
         let report = project(arguments, file)?;
         let origin = Origin::new(&scene.title, file, code.records(), &report, super::VERSION);
@@ -167,7 +169,9 @@ fn walls(console: &Console<'_>, arguments: &Arguments, file: &CheckFile<'_>) -> 
     let outputs = || html.iter().chain(csv).chain(report);
     console.check_distinct(inputs.iter().chain(&code.records().files), outputs())?;
     let mut verdicts = check_walls(&codes, &walls, parallel::threads(None).get());
-    baselines(file, &codes, &walls, &mut verdicts)?;
+    baselines(file, &codes, &walls, &mut verdicts, &mut inputs, &mut warnings)?;
+    // the files of the baseline are known now
+    console.check_distinct(&inputs, outputs())?;
     let language = arguments.language();
     console.save(csv.as_ref(), || verdicts.csv(language))?;
     console.save(html.as_ref(), || verdicts.page(file.name(), language))?;

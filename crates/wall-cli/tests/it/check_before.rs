@@ -26,6 +26,25 @@ fn before_and_after() {
     fails(&folder, &["check", "after.toml", "--set", "check.baseline=none.toml"], &["none.toml"]);
 }
 
+/// The files of the baseline are inputs: none of them is overwritten.
+#[test]
+fn the_baseline_is_not_overwritten() {
+    let folder = folder("check_before_kept");
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    let baseline = "[check]\nbaseline = \"before.toml\"\n";
+    write("after.toml", &format!("{WALL}{TIE}{baseline}{CHECK}"));
+    write("before.toml", WALL);
+    fails(&folder, &["check", "after.toml", "--csv", "before.toml"], &["before.toml"]);
+    assert_eq!(content(&folder, "before.toml"), WALL);
+    let row = "name,height,thickness,density\nlow,4,0.4,1800\n";
+    write("after.toml", &format!("walls = [{{ table = \"after.csv\" }}]\n{baseline}{CHECK}"));
+    write("after.csv", row);
+    write("before.toml", "walls = [{ table = \"before.csv\" }]\n");
+    write("before.csv", row);
+    fails(&folder, &["check", "after.toml", "--csv", "before.csv"], &["before.csv"]);
+    assert_eq!(content(&folder, "before.csv"), row);
+}
+
 /// Each wall of a file stands beside the wall of its name in the file of the state before.
 #[test]
 fn before_and_after_of_many_walls() {

@@ -9,8 +9,10 @@ use crate::words::{Language, Sentence, say};
 const SYMBOLS: [[&str; 3]; 19] = [
     [
         "u",
-        "displacement at mid-height of a parapet, at the hinge of a strip; u > 0: outwards",
-        "spostamento a mezza altezza (ribaltamento) o alla cerniera intermedia; u > 0: verso l'esterno",
+        "displacement at mid-height of a parapet, at the centroid of the masonry (z_G) of a body of parts, \
+         at the hinge of a strip; u > 0: outwards",
+        "spostamento a mezza altezza (ribaltamento), alla quota z_G del baricentro della muratura (corpo \
+         composto di parti) o alla cerniera intermedia; u > 0: verso l'esterno",
     ],
     [
         "u_ins",
