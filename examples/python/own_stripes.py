@@ -26,7 +26,7 @@ with tempfile.TemporaryDirectory() as name:
     for stripe, pga in enumerate([0.2, 0.3, 0.4, 0.6]):
         rows = ["file,scale_factor"]
         for seed in range(10 * stripe, 10 * stripe + 10):
-            samples = rw.synthetic_record(seed=seed, duration=12, dt=0.01, pga=9.80665).samples
+            samples = rw.synthetic_record(seed=seed, duration=12, dt=0.01, pga=9.80665).a
             (folder / f"{seed}.txt").write_text("\n".join(map(str, samples)), encoding="utf-8")
             rows.append(f"{seed}.txt,{pga}")
         (folder / f"{stripe}.csv").write_text("\n".join(rows), encoding="utf-8")

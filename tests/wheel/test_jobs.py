@@ -585,7 +585,7 @@ def test_a_study_without_a_file_is_sent(program, tmp_path, record):
     path = tmp_path / "motion.csv"
     program("record", "--synthetic", "--samples", path)
     read = rw.Study(walls=wall, records=path, **options)
-    assert read.records == ["motion.csv"] and read._native.sent()[2][0][1] == record.dt
+    assert read.records == ["motion.csv"] and read._native.sent()[2][0][1][0] == record.dt
 
 
 def test_a_study_warns_of_what_it_does_not_use(record):

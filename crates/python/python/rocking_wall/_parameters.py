@@ -110,8 +110,8 @@ class Parameters(TypedDict, total=False):
     - curve: Capacity curve in place of a file: pairs of a displacement [m] and the force F [N].
     - at_height: Height at which the displacements are measured [m]; by default they are u, and d* beside a*,
       above 0, at most 1000.
-    - curve_tolerance: Largest deviation of the law from the curve, over the largest force [-], at least 0, at
-      most 0.1; default 0.001.
+    - curve_tolerance: Largest deviation of the law from the curve, over the largest force [-]; by default
+      0.001, at least 0, at most 0.1.
     - oscillator: What rocks, in place of a geometry.
     - bar_anchor_capacity: Force at which an anchor fails, without warning; by default it is stronger than the
       bar [N], above 0.

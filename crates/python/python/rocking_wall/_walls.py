@@ -70,8 +70,8 @@ def _split(parameters: dict[str, Any]) -> tuple[dict[str, Any], str | None, str 
     tables: dict[str, Any] = {"geometry": body} if body else {}
     if "tie" in parameters:
         tables["tie"] = parameters.pop("tie")
-    keys = [key for key in ("curve", "at_height", "curve_tolerance", "oscillator") if key in parameters]
-    curve: dict[str, Any] = {key: parameters.pop(key) for key in keys}
+    of_law = [key for key in ("curve", "at_height", "curve_tolerance", "oscillator") if key in parameters]
+    curve: dict[str, Any] = {key: parameters.pop(key) for key in of_law}
     if "curve" in curve:
         curve["curve"] = [[float(number) for number in point] for point in curve["curve"]]
     law = toml_lines({"force_law": curve}) if curve else None
