@@ -77,8 +77,8 @@ pub struct Curve {
     pub file: Option<PathBuf>,
     /// Points [u, F] of the wall, the origin among them, u rising \[m, N\].
     pub points: Vec<[f64; 2]>,
-    /// How many of them the law keeps, how far it is from the others, how it goes on, and the doubts.
-    pub note: String,
+    /// How many of them the law keeps, how far it is from the others, and how it goes on.
+    kept: String,
     /// What is improbable of the curve on its wall.
     pub doubts: Vec<String>,
     /// Whether an oscillator has it, in place of a geometry.
@@ -88,6 +88,12 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// Returns how many of its points the law keeps, how far it is from the others, how it goes on, and the
+    /// doubts.
+    pub fn note(&self) -> String {
+        [std::slice::from_ref(&self.kept), &self.doubts].concat().join("; ")
+    }
+
     /// Refuses the name of a parameter that no oscillator has, if this is the curve of one.
     ///
     /// # Errors
@@ -107,7 +113,7 @@ impl Curve {
         let scales = Statics::new(parameters).map(|statics| scales(statics.body()));
         if scales.is_ok_and(|scales| scales != self.scales) {
             "scaled with F0 and u_ins, which were changed after it was read, as by --set; not drawn"
-                .clone_into(&mut self.note);
+                .clone_into(&mut self.kept);
             (self.points, self.doubts) = (Vec::new(), Vec::new());
         }
         Some(self)
@@ -186,9 +192,8 @@ pub fn apply_curve(
     body(parameters)?;
     let is_of_oscillator = table.oscillator.is_some();
     let doubts = if is_of_oscillator { Vec::new() } else { law.doubts(&scaled_by) };
-    let note = [&[law.note()], &*doubts].concat().join("; ");
-    let scales = scales(&scaled_by);
-    Ok(Some(Curve { file: path, points: law.points, note, doubts, is_of_oscillator, scales }))
+    let (kept, scales) = (law.note(), scales(&scaled_by));
+    Ok(Some(Curve { file: path, points: law.points, kept, doubts, is_of_oscillator, scales }))
 }
 
 /// Reads the keys of a capacity curve with their place, and refuses others beside them.

@@ -77,7 +77,7 @@ impl Law {
         let corners = self.kept.iter().filter(|at| **at != self.zero).map(|at| self.points[*at]);
         let is_mirrored = self.zero == 0 && body.strength != Sides::both(body.strength.positive);
         let mirrored = corners.clone().rev().filter(|_| is_mirrored).map(|point| point.map(|number| -number));
-        mirrored.chain(corners.clone()).map(fraction).collect()
+        mirrored.chain(corners).map(fraction).collect()
     }
 
     pub(super) fn note(&self) -> String {

@@ -67,7 +67,7 @@ fn a_curve_of_the_bilinear_law_is_the_bilinear_wall() {
         let text = format!("{FREE}[force_law]\nfile = \"pushover.csv\"\n{tolerance}");
         let scene = read("bilinear", &text, &curve).unwrap();
         let of_file = scene.curve.as_ref().unwrap();
-        assert!(of_file.note.contains(kept), "{}", of_file.note);
+        assert!(of_file.note().contains(kept), "{}", of_file.note());
         assert_eq!((of_file.points.len(), scene.files.len()), (401, 1));
         assert_near(&u_of(&scene), &bilinear, 1e-12);
         // the FMU and a written scene have the same points, without the file
@@ -162,7 +162,7 @@ fn an_oscillator_has_the_constants_that_are_given() {
              [damping]\nxi = 0.05\n"
         );
         let scene = read("oscillator", &text, "").unwrap();
-        assert!(scene.curve.as_ref().unwrap().note.contains("F falls to 0 at |u| = 0.2200 m"));
+        assert!(scene.curve.as_ref().unwrap().note().contains("F falls to 0 at |u| = 0.2200 m"));
         let body = Wall::new(&scene.parameters).unwrap().body().clone();
         for (found, expected) in [
             (body.effective_mass, 800.0),
@@ -180,9 +180,9 @@ fn an_oscillator_has_the_constants_that_are_given() {
 fn the_example_reads_its_curve() {
     let scene = Scene::read(&crate::root().join("examples/capacity_curve.toml")).unwrap();
     let curve = scene.curve.as_ref().unwrap();
-    assert!(curve.note.starts_with("14 of 15 points, ΔF at most 0.128 %"), "{}", curve.note);
+    assert!(curve.note().starts_with("14 of 15 points, ΔF at most 0.128 %"), "{}", curve.note());
     let end = "beyond its last point, u = 0.1225 m, F falls to 0 at |u| =";
-    assert!(curve.note.contains(end), "{}", curve.note);
+    assert!(curve.note().contains(end), "{}", curve.note());
     // it fits its geometry
     assert_eq!(curve.doubts, [""; 0]);
     assert!(Wall::new(&scene.parameters).unwrap().omega1() > 0.0 && u_of(&scene).len() > 1000);
@@ -223,7 +223,7 @@ fn a_curve_that_does_not_fit_its_geometry_is_told() {
     let doubts = |curve: &str| {
         let text = format!("{FREE}[force_law]\ncurve = {curve}\n");
         let curve = read("doubts", &text, "").unwrap().curve.unwrap();
-        assert!(curve.doubts.iter().all(|doubt| curve.note.contains(doubt)), "{}", curve.note);
+        assert!(curve.doubts.iter().all(|doubt| curve.note().contains(doubt)), "{}", curve.note());
         curve.doubts
     };
     let end = doubts("[[0.02, 1000.0], [0.22, 0.0]]");
@@ -246,7 +246,7 @@ fn a_weak_side_is_kept() {
         format!("{FREE}[force_law]\ncurve = [[-0.2, 0.0], [-0.01, -1.0], [0.02, 1500.0], [0.2, 0.0]]\n");
     let scene = read("weak", &text, "").unwrap();
     assert_eq!(scene.parameters.multilinear.as_ref().unwrap().len(), 4);
-    assert!(scene.curve.unwrap().note.starts_with("4 of 4 points; the largest F is 0."));
+    assert!(scene.curve.unwrap().note().starts_with("4 of 4 points; the largest F is 0."));
 }
 
 /// A change of the parameters leaves no curve that is not the law, and an oscillator has no geometry.
@@ -262,7 +262,7 @@ fn a_curve_follows_changes_of_its_wall() {
     assert_eq!(changed("xi", "0.03"), scene.curve);
     assert_eq!(changed("force_law", "bilinear"), None);
     let scaled = changed("thickness", "0.3").unwrap();
-    assert!(scaled.points.is_empty() && scaled.note.starts_with("scaled with F0 and u_ins"));
+    assert!(scaled.points.is_empty() && scaled.note().starts_with("scaled with F0 and u_ins"));
     let oscillator = "[force_law]\ncurve = [[0.02, 1000.0], [0.2, 0.0]]\n\
                       oscillator = { effective_mass = 800.0, participation = 1.2 }\n[damping]\nxi = 0.05\n";
     let mut oscillator = read("changes", oscillator, "").unwrap();

@@ -136,7 +136,7 @@ pub fn plot(curves: &[Curve], secants: Vec<(String, (f64, f64))>) -> Plot {
 pub fn with_curve(mut plot: Plot, curve: Option<&scene::Curve>) -> Plot {
     let Some(curve) = curve.filter(|curve| !curve.points.is_empty()) else { return plot };
     let points = curve.points.iter().map(|point| (1000.0 * point[0].abs(), point[1].abs() / 1000.0));
-    let (name, line) = (format!("as given: {}", curve.note), Series::stroke(RED, 1.6, points.collect()));
+    let (name, line) = (format!("as given: {}", curve.note()), Series::stroke(RED, 1.6, points.collect()));
     plot.series.push(Series { name, look: Look::Dotted, ..line });
     plot
 }

@@ -21,7 +21,7 @@ pub fn summary(scene: &Scene, response: &Response) -> String {
         line("motion", scene.motion_notes.join(", "));
     }
     if let Some(curve) = &scene.curve {
-        line("curve", curve.note.clone());
+        line("curve", curve.note());
     }
     line("largest |u|", largest(summary, "m", 6));
     line("overturned", overturned(summary.fate, 4));

@@ -95,7 +95,7 @@ const MEANT: [&str; 6] = ["scale_factor", "factor", "weight", "step", "unit", "f
 
 impl Role {
     fn of(name: &Name) -> Option<Self> {
-        let plain = plain(name.written());
+        let plain = plain(name);
         let known = |(_, names): &&(Self, &str)| names.split(' ').any(|name| name == plain);
         ROLES.iter().find(known).map(|(role, _)| *role)
     }
@@ -111,9 +111,8 @@ impl Role {
 }
 
 /// Returns a name in small letters, without blanks, marks and its unit.
-fn plain(name: &str) -> String {
-    let name = name.split(['(', '[']).next().unwrap_or_default();
-    name.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_lowercase()
+fn plain(name: &Name) -> String {
+    name.text().chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_lowercase()
 }
 
 /// Returns the file that lists the records of a selection: a table, or one in a folder.
@@ -209,16 +208,16 @@ fn check(columns: &Columns<'_>, roles: &[Option<Role>]) -> Result<(), String> {
             "no column of files; name one `file`, beside `scale_factor` and `weight`; found {found}"
         ));
     }
-    for (place, name) in names.iter().enumerate() {
+    for (place, column) in columns.names().iter().enumerate() {
+        let name = names[place];
         let Some(role) = roles[place] else {
-            check_unknown(name, roles)?;
+            check_unknown(column, roles)?;
             continue;
         };
         if let Some(twin) = (0..place).find(|twin| roles[*twin] == Some(role)) {
             return Err(format!("{:?} and {name:?} state the same; delete one column", names[twin]));
         }
-        let unit =
-            name.find(['(', '[', '%']).map_or("", |at| name[at..].trim_matches(|c| "([ ])".contains(c)));
+        let unit = column.unit().unwrap_or(if name.ends_with('%') { "%" } else { "" });
         if let Some(units) = role.units().filter(|units| !units.contains(&unit)) {
             let remedy = "convert the values, and name the column without a unit";
             let expected = if units.contains(&"s") { "s" } else { "plain numbers" };
@@ -229,7 +228,7 @@ fn check(columns: &Columns<'_>, roles: &[Option<Role>]) -> Result<(), String> {
 }
 
 /// Refuses the name of an unknown column that may be meant to be a factor, a weight or another known one.
-fn check_unknown(name: &str, roles: &[Option<Role>]) -> Result<(), String> {
+fn check_unknown(name: &Name, roles: &[Option<Role>]) -> Result<(), String> {
     let plain = plain(name);
     // numbered columns, such as file_3, are other components
     let is_word = plain.len() > 3 && !plain.contains(|c: char| c.is_ascii_digit());
@@ -244,7 +243,7 @@ fn check_unknown(name: &str, roles: &[Option<Role>]) -> Result<(), String> {
     } else {
         return Ok(());
     };
-    Err(format!("unknown column {name:?}{meant}; rename or delete it"))
+    Err(format!("unknown column {:?}{meant}; rename or delete it", name.written()))
 }
 
 /// Makes a table of the names and steps of `EzGM`, which stand line by line in files of their own.

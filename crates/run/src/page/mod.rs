@@ -208,7 +208,7 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
     let ties = tie::facts(wall, parameters);
     let name = |number: usize| if ties.len() > 1 { format!("tie {number}") } else { "tie".to_owned() };
     let of_ties = ties.iter().zip(1..).map(|(tie, number)| row(&name(number), tie));
-    let curve = scene.curve.iter().map(|curve| row("capacity curve", &curve.note));
+    let curve = scene.curve.iter().map(|curve| row("capacity curve", &curve.note()));
     rows.iter().map(|(name, value)| row(name, value)).chain(curve).chain(of_ties).collect()
 }
 

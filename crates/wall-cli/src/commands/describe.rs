@@ -69,7 +69,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
         ("impact", parameters.impact.name().to_owned()),
         ("solver", method_name(&method).to_owned()),
     ];
-    let curve = scene.curve.iter().map(|curve| ("curve".to_owned(), curve.note.clone()));
+    let curve = scene.curve.iter().map(|curve| ("curve".to_owned(), curve.note()));
     let words = words.map(|(name, value)| (name.to_owned(), value)).into_iter();
     let words = words.chain(curve).chain(ties(parameters));
     if arguments.json {
