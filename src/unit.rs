@@ -125,15 +125,19 @@ impl Unit {
         use RealVariable as V;
         let Inputs { bottom, top, drift, .. } = &self.inputs;
         for (of, Input { value, rate, .. }) in [(V::ABottom, bottom), (V::ATop, top), (V::Drift, drift)] {
-            check_real(of.variable(), value + rate * step.duration)?;
+            // a value was checked when it was set
+            if *rate != 0.0 {
+                check_real(of.variable(), value + rate * step.duration)?;
+            }
         }
         // a step in one segment that fails leaves the wall as it was, and needs no copy
         let may_go_back = step.may_end_early || self.excitation.is_some();
         let before = may_go_back.then(|| *self.simulation.progress());
         let mut done = self.move_wall(step);
         let mut event = None;
-        if let Some(before) = before.filter(|_| step.may_end_early)
-            && let Some(duration) = self.duration_to_event(before, step)
+        if step.may_end_early
+            && let Some(before) = before
+            && let Some(duration) = self.duration_to_event(&before, step)
         {
             self.simulation.restore(before);
             let early = self.move_wall(CommunicationStep { duration, ..step });
@@ -162,25 +166,26 @@ impl Unit {
 
     /// Moves the wall through a step.
     fn move_wall(&mut self, step: CommunicationStep) -> Result<Step, Failure> {
-        self.simulation.set_time(step.from);
-        let (inputs, motion, start) = (self.inputs, self.excitation.as_deref(), self.experiment.start);
+        let Self { simulation, inputs, excitation, experiment, .. } = self;
+        simulation.set_time(step.from);
+        let (motion, start) = (excitation.as_deref(), experiment.start);
         let next = |simulation: &mut Simulation, _: Option<&mut Demands>, done: f64| {
             let remaining = step.duration - done;
             let own = segment_of(motion, simulation.progress().time - start, remaining);
             let (from, to) = (inputs.support(own.from, done), inputs.support(own.to, done + own.duration));
             (Segment { duration: own.duration, from, to }, remaining)
         };
-        self.simulation.advance_through(next, None).map_err(|error| error.to_string().into())
+        simulation.advance_through(next, None).map_err(|error| error.to_string().into())
     }
 
     /// Returns the length of the step up to just after its first overturning or fracture \[s\]; `None` where
     /// there is none inside the step. `before` is the progress at its start.
-    fn duration_to_event(&self, before: Progress, step: CommunicationStep) -> Option<f64> {
+    fn duration_to_event(&self, before: &Progress, step: CommunicationStep) -> Option<f64> {
         let times = |progress: &Progress| {
             let [positive, negative] = progress.tie_breaks;
             [progress.overturn_time, positive, negative]
         };
-        let happened = times(self.simulation.progress()).into_iter().zip(times(&before));
+        let happened = times(self.simulation.progress()).into_iter().zip(times(before));
         let new = happened.filter_map(|(now, before)| now.filter(|_| before.is_none()));
         let event = new.reduce(f64::min)?;
         let margin = HAPPENED_SINCE.max(4.0 * f64::EPSILON * event.abs());
