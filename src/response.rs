@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use serde::{Serialize, Serializer};
 
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Scene, SceneError, warnings_of};
 use crate::simulation::{Outputs, Simulation, segment_of};
 use crate::solver::{Demands, Work};
 use crate::wall::{Sides, Support, Warning};
@@ -198,7 +198,7 @@ impl Response {
         let mut ties: Vec<_> =
             simulation.wall().ties().iter().map(|_| Vec::with_capacity(count + 1)).collect();
         add_ties(&mut ties, &simulation);
-        let shocks = shock::shocks(scene, simulation.clone(), excitation)?;
+        let start = simulation.clone();
         let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
         let mut put_to_rest = false;
         for index in 1..=count {
@@ -214,6 +214,7 @@ impl Response {
             progress.overturn_time,
             samples.iter().map(|sample| (sample.time, sample.outputs.ratio)),
         );
+        let shocks = shock::shocks(scene, start, excitation, fate.falling())?;
         let [u_max, u_ratio_max] = progress.state.reported_peak(u_ins, fate.falls());
         let summary = Summary {
             u_max,
@@ -228,7 +229,7 @@ impl Response {
         let residual = progress.state.displacement;
         let wall = simulation.wall();
         let of_start = wall.start_warning(scene.parameters.u_start);
-        let warnings = wall.warnings().iter().cloned().chain(of_start).collect();
+        let warnings = warnings_of(wall, scene.curve.as_ref()).cloned().chain(of_start).collect();
         Ok(Self { samples, summary, demands, shocks, ties, residual, warnings })
     }
 

@@ -14,6 +14,8 @@ pub struct Shock {
     pub start: f64,
     /// When it ends \[s\].
     pub end: f64,
+    /// The wall had fallen before it began, and moves no more.
+    pub fallen_before: bool,
     /// Largest |u| of this shock; `u_ins` of its side for a wall that falls \[m\].
     pub u_max: f64,
     /// Largest |u|/`u_ins` of its side; 1 for a wall that falls \[-\].
@@ -30,11 +32,12 @@ pub struct Shock {
 }
 
 /// Runs a scene once more, shock by shock of its sequence; returns none of a single motion. `simulation` is
-/// at the start, and `motion` that of the supports.
+/// at the start, `motion` that of the supports, and `falling` when the wall falls \[s\].
 pub(super) fn shocks(
     scene: &Scene,
     mut simulation: Simulation,
     motion: Option<&Excitation>,
+    falling: Option<f64>,
 ) -> Result<Vec<Shock>, RunError> {
     let Some(record) = scene.excitation.as_ref().map(Excitation::bottom) else { return Ok(Vec::new()) };
     let later = record.shocks().into_iter().skip(1).map(|shock| shock.start as f64 * record.step());
@@ -55,7 +58,8 @@ pub(super) fn shocks(
         let (residual, overturned) = (state.displacement, state.overturned);
         let falls = overturned && residual.abs() >= u_ins.of(residual);
         let [u_max, u_ratio_max] = state.reported_peak(u_ins, falls);
-        Ok(Shock { start, end, u_max, u_ratio_max, overturned, falls, residual, demands })
+        let fallen_before = falling.is_some_and(|time| time <= start);
+        Ok(Shock { start, end, fallen_before, u_max, u_ratio_max, overturned, falls, residual, demands })
     };
     ends.into_iter().map(next).collect()
 }

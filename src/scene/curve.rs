@@ -20,7 +20,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::choices::Mechanism;
 use crate::variables::GROUPS;
-use crate::wall::{Body, COMPUTED, ParameterError, Parameters, Sides, Statics, check_points};
+use crate::wall::{Body, COMPUTED, ParameterError, Parameters, Sides, Statics, Wall, Warning, check_points};
 
 use super::keys::{Group, KINEMATICS_GROUP, MULTILINEAR};
 use super::law::Law;
@@ -94,6 +94,16 @@ impl Curve {
         [std::slice::from_ref(&self.kept), &self.doubts].concat().join("; ")
     }
 
+    /// Marks these parameters as those of an oscillator; without the points of its curve.
+    ///
+    /// # Errors
+    /// [`ParameterError`] of parameters that make no wall.
+    pub fn of_oscillator(parameters: &Parameters) -> Result<Self, ParameterError> {
+        let scales = scales(Statics::new(parameters)?.body());
+        let (kept, doubts) = ("sent without its points".to_owned(), Vec::new());
+        Ok(Self { file: None, points: Vec::new(), kept, doubts, is_of_oscillator: true, scales })
+    }
+
     /// Refuses the name of a parameter that no oscillator has, if this is the curve of one.
     ///
     /// # Errors
@@ -118,6 +128,14 @@ impl Curve {
         }
         Some(self)
     }
+}
+
+/// Returns the warnings of a wall whose force law is of a curve, if it is. No oscillator has rotations.
+pub fn warnings_of<'a>(wall: &'a Wall, curve: Option<&Curve>) -> impl Iterator<Item = &'a Warning> {
+    let is_of_oscillator = curve.is_some_and(|curve| curve.is_of_oscillator);
+    let is_told =
+        move |warning: &&Warning| !(is_of_oscillator && matches!(warning, Warning::LargeRotations { .. }));
+    wall.warnings().iter().filter(is_told)
 }
 
 /// Returns whether an oscillator has the parameter called `name`: those of a geometry are not its own.
@@ -191,7 +209,12 @@ pub fn apply_curve(
     parameters.multilinear = Some(law.fractions(&scaled_by).into());
     body(parameters)?;
     let is_of_oscillator = table.oscillator.is_some();
-    let doubts = if is_of_oscillator { Vec::new() } else { law.doubts(&scaled_by) };
+    let doubts = match table.oscillator {
+        None => law.doubts(&scaled_by),
+        Some(OscillatorTable { effective_mass, participation }) => {
+            law.doubts_of_oscillator(effective_mass * participation * parameters.gravity)
+        }
+    };
     let (kept, scales) = (law.note(), scales(&scaled_by));
     Ok(Some(Curve { file: path, points: law.points, kept, doubts, is_of_oscillator, scales }))
 }

@@ -14,6 +14,10 @@ const MOST_OFF_END: f64 = 0.01;
 /// Largest forces of a curve that are probable, of F₀ \[-\].
 const USUAL_FORCES: RangeInclusive<f64> = 0.1..=3.0;
 
+/// Ends |u| \[m\] and largest a* \[g\] of oscillators that are probable.
+const USUAL_ENDS: RangeInclusive<f64> = 0.001..=5.0;
+const USUAL_ACCELERATIONS: RangeInclusive<f64> = 0.005..=5.0;
+
 /// A law of some of the points of a curve.
 pub(super) struct Law {
     pub(super) points: Vec<[f64; 2]>,
@@ -115,6 +119,24 @@ impl Law {
                     "the largest F is {ratio:.3} F0 of the geometry, not {least} to {most}: check the unit"
                 ));
             }
+        }
+        doubts
+    }
+
+    /// Says where the curve of an oscillator is improbable; `weight` is λ `m_eff` g \[N\].
+    pub(super) fn doubts_of_oscillator(&self, weight: f64) -> Vec<String> {
+        let mut doubts = Vec::new();
+        let end = self.ends().map(|end| end.u).fold(0.0, f64::max);
+        if !USUAL_ENDS.contains(&end) {
+            let [least, most] = [USUAL_ENDS.start(), USUAL_ENDS.end()];
+            doubts.push(format!("F is 0 at |u| = {end:.4} m, not {least} to {most} m: check the unit"));
+        }
+        let largest = largest_force(&self.points) / weight;
+        if !USUAL_ACCELERATIONS.contains(&largest) {
+            let [least, most] = [USUAL_ACCELERATIONS.start(), USUAL_ACCELERATIONS.end()];
+            doubts.push(format!(
+                "the largest a* is {largest:.3e} g, not {least} to {most}: check the unit, and effective_mass"
+            ));
         }
         doubts
     }

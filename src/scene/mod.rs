@@ -31,7 +31,7 @@ use crate::wall::{Bar, Kinematics, OF_RECTANGLE, Parameters, is_computable, usag
 
 pub use crate::variables::GROUPS;
 pub use body::{BODIES, BodyTable, LoadTable, OF_BODY, OpeningTable, PartTable};
-pub use curve::{Curve, CurveTable, apply_curve, is_of_oscillator};
+pub use curve::{Curve, CurveTable, apply_curve, is_of_oscillator, warnings_of};
 pub use document::{Document, read_shape};
 pub use keys::{Group, KINEMATICS, POINTS, TieTables};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL};

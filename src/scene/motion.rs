@@ -240,7 +240,8 @@ fn sequence(
     }
     let pause = spec.pause.unwrap_or(DEFAULT_PAUSE);
     let motion = shocks.read(options, pause, folder, |table, record| note(notes, table, record))?;
-    let joined = || format!("{pause} s between them, in steps of {} s", motion.step());
+    let step = (1e9 * motion.step()).round() / 1e9;
+    let joined = || format!("{pause} s between them, in steps of {step} s");
     notes.extend((shocks.0.len() > 1).then(joined));
     Ok(motion)
 }

@@ -44,6 +44,16 @@ pub enum RecordProblem {
 }
 
 impl RecordTable {
+    /// Returns what the table states of its part of the file and its size, in brackets; empty for nothing.
+    pub fn options(&self) -> String {
+        let texts = [("column", &self.column), ("channel", &self.channel)];
+        let numbers = [("scale", self.scale), ("pga", self.pga.map(|pga| pga.0))];
+        let texts = texts.into_iter().filter_map(|(key, text)| Some(format!("{key} {}", text.as_ref()?)));
+        let numbers = numbers.into_iter().filter_map(|(key, number)| Some(format!("{key} {}", number?)));
+        let stated: Vec<_> = texts.chain(numbers).collect();
+        if stated.is_empty() { String::new() } else { format!(" ({})", stated.join(", ")) }
+    }
+
     /// Reads the record, in `folder` and not scaled, with `common` options where it states none.
     pub(super) fn read(&self, common: &RecordOptions, folder: &Path) -> Result<Record, RecordProblem> {
         let path = folder.join(&self.record);

@@ -41,7 +41,8 @@ pub enum Warning {
     CountedTwice,
     /// a₁ outside the fit of Eqs. (20)–(22).
     #[error(
-        "a1 = {a1} is outside the range {} to {} in which computed damping (Eqs. 20 to 22) was fitted",
+        "a1 = {} is outside the range {} to {} in which computed damping (Eqs. 20 to 22) was fitted",
+        six_digits(*a1),
         equivalence::FITTED_A1.start(),
         equivalence::FITTED_A1.end()
     )]

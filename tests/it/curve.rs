@@ -4,9 +4,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use rocking_wall::response::Response;
-use rocking_wall::scene::{Scene, to_toml};
+use rocking_wall::scene::{Scene, to_toml, warnings_of};
 use rocking_wall::unit::UnitScene;
-use rocking_wall::wall::{Parameters, Wall};
+use rocking_wall::wall::{Parameters, Wall, Warning};
 
 /// A folder with the file `pushover.csv` of a text.
 fn folder(name: &str, curve: &str) -> PathBuf {
@@ -237,6 +237,31 @@ fn a_curve_that_does_not_fit_its_geometry_is_told() {
     let unit = doubts("[[0.02, 1.0e6], [0.2, 0.0]]");
     assert!(unit.len() == 1 && unit[0].contains("the largest F is 353.947 F0"), "{unit:?}");
     assert_eq!(doubts("[[0.02, 100.0], [0.2, 0.0]]").len(), 1);
+}
+
+/// An oscillator in other units is told, and has no rotations to warn of.
+#[test]
+fn an_oscillator_in_other_units_is_told() {
+    let of = |curve: &str, mass: f64| {
+        let oscillator = format!("oscillator = {{ effective_mass = {mass}, participation = 1.2 }}");
+        let text = format!("[force_law]\ncurve = {curve}\n{oscillator}\n[damping]\nxi = 0.05\n");
+        read("units", &text, "").unwrap()
+    };
+    let (curve, millimetres) = ("[[0.02, 1000.0], [0.2, 0.0]]", "[[20.0, 1000.0], [200.0, 0.0]]");
+    for (curve, mass, words) in [
+        (curve, 800.0, None),
+        (millimetres, 800.0, Some("F is 0 at |u| = 200.0000 m, not 0.001 to 5 m: check the unit")),
+        (curve, 8e5, Some("the largest a* is 1.062e-4 g, not 0.005 to 5: check the unit, and")),
+    ] {
+        let doubts = of(curve, mass).curve.unwrap().doubts;
+        assert_eq!(doubts.len(), usize::from(words.is_some()), "{doubts:?}");
+        assert!(doubts.iter().zip(words).all(|(doubt, words)| doubt.contains(words)), "{doubts:?}");
+    }
+    // a stiff one, whose rigid body is squat
+    let scene = of("[[0.02, 30000.0], [0.2, 0.0]]", 800.0);
+    let wall = Wall::new(&scene.parameters).unwrap();
+    assert!(wall.warnings().iter().any(|warning| matches!(warning, Warning::LargeRotations { .. })));
+    assert_eq!(warnings_of(&wall, scene.curve.as_ref()).count(), wall.warnings().len() - 1);
 }
 
 /// Each side is measured by its own largest force; a law of all points has no deviation to tell.

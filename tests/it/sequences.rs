@@ -112,6 +112,17 @@ fn a_broken_tie_does_not_break_again() {
     assert!(!broken.is_empty() && broken.iter().all(|(first, second)| first == second), "{broken:?}");
 }
 
+/// A shock says whether the wall had fallen before it began.
+#[test]
+fn shocks_after_a_fall_say_so() {
+    let shock = noise(3, 0.01, 20.0);
+    let twice = GroundMotion::sequence(&[motion(0.01, &shock), motion(0.01, &shock)], 6.0).unwrap();
+    let response = run("[geometry]\nheight = 3.0\nthickness = 0.3", twice, None);
+    assert!(response.summary.fate.falls());
+    let fallen = response.shocks.iter().map(|shock| (shock.fallen_before, shock.falls));
+    assert_eq!(fallen.collect::<Vec<_>>(), [(false, true), (true, true)]);
+}
+
 /// Records of two steps are each the motion that they are at a step that divides both.
 #[test]
 fn a_finer_step_is_the_same_motion() {

@@ -47,11 +47,12 @@ fn points_of_a_law_that_are_no_pairs_are_refused() {
 fn damping_beyond_its_meaning_is_warned_of() {
     type Change = fn(&mut Parameters);
     let block: Change = |wall| wall.damping_model = DampingModel::FreeStandingBlock;
-    let cases: [(Change, Change, &str); 5] = [
+    let cases: [(Change, Change, &str); 6] = [
         (block, |wall| wall.overburden = 1e4, "computed c_bar (Eq. 23) is valid only for a parapet"),
         (|_| {}, |wall| wall.impact = Impact::Restitution, "computed damping already represents the impacts"),
         (|wall| wall.a1 = 0.1, |wall| wall.a1 = 0.101, "a1 = 0.101 is outside the range 0.005 to 0.1"),
         (|wall| wall.a1 = 0.005, |wall| wall.a1 = 0.0049, "a1 = 0.0049 is outside the range"),
+        (|wall| wall.a1 = 0.005, |wall| wall.a1 = 1e-300, "a1 = 1e-300 is outside the range"),
         (
             |wall| (wall.damping_model, wall.impact) = (DampingModel::None, Impact::Restitution),
             |wall| wall.restitution = 1.0,

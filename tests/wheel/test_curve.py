@@ -42,6 +42,9 @@ def test_an_oscillator_needs_no_geometry():
     assert wall.participation == pytest.approx(1.4, rel=1e-14)
     assert [wall.u_ins, wall.u_ins_negative] == pytest.approx([0.3, 0.2], rel=1e-14)
     assert len(wall.points) == 5
+    for each in (wall, pickle.loads(pickle.dumps(wall))):
+        with pytest.raises(ValueError, match="height is that of a wall, and no oscillator has it"):
+            each.replace(height=3)
 
 
 @pytest.mark.parametrize(
@@ -50,6 +53,8 @@ def test_an_oscillator_needs_no_geometry():
         ({"curve": [[0.1, 1.0], [0.05, 0.5], [0.2, 0.0]]}, r"\[0.05, 0.5\] .*must rise from zero; sort"),
         ({"curve": [[0.1, 1.0], [0.2, 2.0]]}, "the last line must fall"),
         ({"curve": [[0.1, 1.0]]}, "at least two points"),
+        ({"curve": "pushover.csv"}, r"curve must be pairs \[\[u, F\], ...\] in m and N"),
+        ({"curve": [0.1, 0.2]}, "an array or a DataFrame of two columns"),
         ({"curve": [[0.1, np.nan], [0.2, 0.0]]}, "must be finite"),
         ({"curve": [[0.1, -1.0], [0.2, 0.0]]}, "the force must be positive"),
         ({"curve": [[0.0, 1.0], [0.2, 0.0]]}, "a curve begins at the origin"),

@@ -10,8 +10,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
-    Document, Floors, GROUPS, KINEMATICS, MotionTable, OF_BODY, POINTS, Scene, StoreyTable, SupportsTable,
-    apply_curve, parameter_text, set_names, to_toml,
+    Curve, Document, Floors, GROUPS, KINEMATICS, MotionTable, OF_BODY, POINTS, Scene, StoreyTable,
+    SupportsTable, apply_curve, parameter_text, set_names, to_toml, warnings_of,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
@@ -37,9 +37,16 @@ pub(crate) struct Wall {
 
 /// A wall as values that pickle can send: its scene file without the motion, all of its parameters as texts,
 /// its start where it was given, the motions of the bottom support and, where it has its own, of the top one,
-/// with what is known of them, and the parameters that nobody stated.
-type Values =
-    (String, Vec<(String, String)>, Option<f64>, Option<(Motion, Option<Motion>)>, Vec<String>, Vec<String>);
+/// with what is known of them, the parameters that nobody stated, and whether it is an oscillator.
+type Values = (
+    String,
+    Vec<(String, String)>,
+    Option<f64>,
+    Option<(Motion, Option<Motion>)>,
+    Vec<String>,
+    Vec<String>,
+    bool,
+);
 
 /// The solver in words, u and F at the corners of the restoring force, warnings, and the capacity curve.
 type Description = (String, Vec<(f64, f64)>, Vec<String>, String);
@@ -109,13 +116,15 @@ impl Wall {
             motion.map(|motion| (Motion(motion.bottom().clone()), motion.top().cloned().map(Motion)));
         let parameters = self.parameters().into_iter().map(|(name, text)| (name.to_owned(), text)).collect();
         let assumed = self.assumed.iter().map(|name| (*name).to_owned()).collect();
-        (to_toml(&self.scene, ""), parameters, self.start, motion, self.scene.motion_notes.clone(), assumed)
+        let notes = self.scene.motion_notes.clone();
+        let is_oscillator = self.scene.curve.as_ref().is_some_and(|curve| curve.is_of_oscillator);
+        (to_toml(&self.scene, ""), parameters, self.start, motion, notes, assumed, is_oscillator)
     }
 
     /// Makes a wall from its values.
     #[staticmethod]
     fn received(values: Values) -> PyResult<Self> {
-        let (text, parameters, start, motion, motion_notes, assumed) = values;
+        let (text, parameters, start, motion, motion_notes, assumed, is_oscillator) = values;
         let mut scene = Scene::parse("a wall that was sent", &text, Path::new(".")).map_err(of_scene)?;
         let bar = scene.parameters.bar;
         for (name, text) in &parameters {
@@ -130,6 +139,8 @@ impl Wall {
             scene.excitation = Some(Excitation::new(bottom.0, top.map(|Motion(top)| top)));
         }
         scene.motion_notes = motion_notes;
+        scene.curve =
+            is_oscillator.then(|| Curve::of_oscillator(&scene.parameters)).transpose().map_err(refused)?;
         let equation = Equation::new(&scene.parameters).map_err(refused)?;
         let assumed = self::assumed(|_, name| assumed.iter().all(|own| own != name));
         Ok(Self { scene, equation, start, assumed })
@@ -199,7 +210,8 @@ impl Wall {
         let Self { scene, equation, .. } = self;
         let method = Method::new(&scene.parameters, equation, scene.parameters.tolerance).map_err(refused)?;
         let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(equation));
-        let warnings = equation.warnings().iter().map(ToString::to_string).chain(of_floors).collect();
+        let warnings = warnings_of(equation, scene.curve.as_ref()).map(ToString::to_string);
+        let warnings = warnings.chain(of_floors).collect();
         let corners = equation.capacity_corners(1.0);
         let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
         let curve = with_curve(plot(&[("u > 0", points)], Vec::new()), scene.curve.as_ref()).picture();

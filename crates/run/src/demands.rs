@@ -103,16 +103,14 @@ pub fn lines(response: &Response, has_top: bool) -> Vec<(String, String)> {
     let fallen = if response.summary.fate.falls() { ", fallen" } else { "" };
     lines.push(("residual u".to_owned(), format!("{} mm{fallen}", figure(1000.0 * response.residual))));
     let shocks = response.shocks.iter().zip(1..);
-    lines.extend(
-        shocks.map(|(shock, number)| (format!("shock {number}"), of_shock(shock, response.summary.fate))),
-    );
+    lines.extend(shocks.map(|(shock, number)| (format!("shock {number}"), of_shock(shock))));
     lines
 }
 
 /// What a shock did to the wall, and to its ties up to then.
-fn of_shock(shock: &Shock, fate: Fate) -> String {
+fn of_shock(shock: &Shock) -> String {
     let Shock { start, u_max, u_ratio_max, residual, .. } = shock;
-    if matches!(fate, Fate::Falls { falls, .. } if falls <= *start) {
+    if shock.fallen_before {
         return format!("from {start:.3} s: had fallen before");
     }
     let end =

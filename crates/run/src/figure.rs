@@ -11,6 +11,7 @@ use report::palette::{AMBER, BLUE, DARK_GREY, Mark, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use report::points::{Point, Points, decimated, within};
 use rocking_wall::response::Sample;
+use rocking_wall::scene;
 use rocking_wall::wall::{Tie, Wall};
 
 /// Width of the plots \[px\].
@@ -99,6 +100,16 @@ pub fn force_path<'a>(
     let law = Series { look: Look::Dashed, ..Series::stroke(RED, 1.0, law) };
     let axes = [Axis::over("u / u_ins", [-reach, reach]), Axis::over("restoring force F (kN)", y_range)];
     Plot::new([WIDTH, 320.0], axes, vec![law, Series::stroke(BLUE, 1.6, path)])
+}
+
+/// Adds the points of the capacity curve that the force law was made of to a plot of the force, where it
+/// shows them.
+pub(crate) fn with_points(mut plot: Plot, wall: &Wall, curve: &scene::Curve) -> Plot {
+    let [left, right, ..] = plot.ranges();
+    let points = curve.points.iter().map(|&[u, force]| (u / wall.body().instability.of(u), 1e-3 * force));
+    let shown = points.filter(|point| (left..=right).contains(&point.0)).collect();
+    plot.series.push(Series { look: Look::Marks(Mark::Circle), ..Series::stroke(AMBER, 2.0, shown) });
+    plot
 }
 
 /// Draws u/`u_ins` over the time \[s\] with full rotations and, dashed, with small ones.

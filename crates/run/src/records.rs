@@ -280,7 +280,11 @@ pub fn all_records(
     for ((shocks, line), name) in entry.sequences.iter().zip(names) {
         let warn = |table: &RecordTable, record: &Record| {
             let file = folder.join(&table.record);
-            warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", file.display())));
+            for warning in record.check().warnings.iter().map(|w| format!("{}: {w}", file.display())) {
+                if !warnings.contains(&warning) {
+                    warnings.push(warning);
+                }
+            }
         };
         let motion = shocks.read(&entry.options, entry.pause, folder, warn);
         let motion = motion.map_err(|problem| FileError::on_line(study, *line, problem.to_string()))?;
@@ -298,18 +302,25 @@ pub fn all_records(
     Ok(records)
 }
 
-/// Names the sequences by their files: those with equal names by their whole paths.
+/// Names the sequences by their files: those with equal names by what their tables state beside the file,
+/// and else by their whole paths.
 fn sequence_names(entry: &RecordsEntry, folder: &Path) -> Vec<String> {
-    let joined = |name: fn(&Path) -> String, shocks: &Shocks| {
-        let names: Vec<_> = shocks.0.iter().map(|table| name(&folder.join(&table.record))).collect();
-        names.join(" + ")
+    let all = |name: &dyn Fn(&RecordTable) -> String| -> Vec<String> {
+        let joined = |shocks: &Shocks| shocks.0.iter().map(name).collect::<Vec<_>>().join(" + ");
+        entry.sequences.iter().map(|(shocks, _)| joined(shocks)).collect()
     };
-    let short: Vec<_> = entry.sequences.iter().map(|(shocks, _)| joined(file_name, shocks)).collect();
-    let name = |(name, (shocks, _)): (&String, &(Shocks, usize))| {
-        let is_alone = short.iter().filter(|other| *other == name).count() == 1;
-        if is_alone { name.clone() } else { joined(|path| path.display().to_string(), shocks) }
+    let short = |table: &RecordTable| file_name(&table.record);
+    let whole = |table: &RecordTable| folder.join(&table.record).display().to_string();
+    let ways = [
+        all(&short),
+        all(&|table| short(table) + &table.options()),
+        all(&|table| whole(table) + &table.options()),
+    ];
+    let name = |place: usize| {
+        let is_alone = |names: &&Vec<_>| names.iter().filter(|other| **other == names[place]).count() == 1;
+        ways.iter().find(is_alone).unwrap_or(&ways[2])[place].clone()
     };
-    short.iter().zip(&entry.sequences).map(name).collect()
+    (0..entry.sequences.len()).map(name).collect()
 }
 
 /// Groups the records that are one motion: their steps and samples are equal.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use files::{FileError, read_text};
 use ground_motion::columns::{Columns, Fault, Name, Numbers, Thousands};
-use rocking_wall::scene::{KINEMATICS, Scene, SceneError};
+use rocking_wall::scene::{Curve, KINEMATICS, Scene, SceneError};
 
 use crate::named_wall::NamedWall;
 use crate::wall_columns::{choice, column, key_of_check};
@@ -30,12 +30,12 @@ const NO_NAMES: &str = "nan na n/a none null total sum mean average count std to
 /// Parameters that every wall of a table has if one has it.
 const WITHOUT_GAPS: [&str; 3] = ["height", "thickness", "density"];
 
-/// Reads the walls of a table. An empty cell leaves its parameter at the default, but for [`WITHOUT_GAPS`]; a
+/// Reads the walls of a table with the capacity curves of their scenes. An empty cell leaves its parameter at the default, but for [`WITHOUT_GAPS`]; a
 /// row without any content is skipped, and one with a name and no value refused. `scene_of` reads a scene.
 pub(crate) fn read(
     path: &Path,
     scene_of: &mut dyn FnMut(&Path) -> Result<Stated, SceneError>,
-) -> Result<Vec<NamedWall>, FileError> {
+) -> Result<Vec<(NamedWall, Option<Curve>)>, FileError> {
     let (file, folder) = (path.display().to_string(), path.parent().unwrap_or(Path::new(".")));
     let text = read_text(path, "a table of walls (CSV)", MAX_FILE_BYTES)?;
     parse(&file, &text, &mut |scene| scene_of(&folder.join(scene)))
@@ -46,7 +46,7 @@ fn parse(
     file: &str,
     text: &str,
     scene_of: &mut dyn FnMut(&str) -> Result<Stated, SceneError>,
-) -> Result<Vec<NamedWall>, FileError> {
+) -> Result<Vec<(NamedWall, Option<Curve>)>, FileError> {
     let fail = |line: usize, message: String| FileError::on_line(file, line, message);
     let in_file = |fault: Fault| fail(fault.line(), fault.to_string());
     let in_column = |column: &str, fault: &Fault| fail(fault.line(), format!("{column}: {fault}"));
@@ -90,9 +90,8 @@ fn parse(
         }
         let wall = named(wall, &names, &stated).map_err(|message| fail(row.line, message))?;
         let (parameters, floors) = (scene.parameters.clone(), scene.floors.take());
-        let is_oscillator = scene.curve.take().is_some_and(|curve| curve.is_of_oscillator);
         let wall = NamedWall::new(wall, parameters).stating(stated);
-        walls.push(NamedWall { floors, is_oscillator, check, ..wall });
+        walls.push((NamedWall { floors, check, ..wall }, scene.curve.take()));
     }
     for (column, thousands) in names.iter().zip(thousands) {
         thousands.check().map_err(|fault| in_column(column, &fault))?;
@@ -155,7 +154,8 @@ mod tests {
     use super::{FileError, NamedWall, Scene};
 
     fn parse(file: &str, text: &str) -> Result<Vec<NamedWall>, FileError> {
-        super::parse(file, text, &mut |scene| Ok((Scene::read(scene.as_ref())?, vec!["height"])))
+        let scene_of = &mut |scene: &str| Ok((Scene::read(scene.as_ref())?, vec!["height"]));
+        Ok(super::parse(file, text, scene_of)?.into_iter().map(|(wall, _)| wall).collect())
     }
 
     #[test]

@@ -280,12 +280,13 @@ pub fn walls(
                 inputs.extend(found.0.files.iter().cloned());
                 Ok(found)
             };
-            let mut walls = wall_table::read(&path, &mut scene_of)
+            let walls = wall_table::read(&path, &mut scene_of)
                 .map_err(|error| at(line, "a table of walls", &error))?;
-            for wall in &mut walls {
-                wall.floors = entry.floors.clone().or(wall.floors.take());
-            }
-            Ok(walls)
+            let wall = |(wall, curve): (NamedWall, _)| {
+                let floors = entry.floors.clone().or(wall.floors.clone());
+                with_curve(NamedWall { floors, ..wall }, curve, inputs, warnings)
+            };
+            Ok(walls.into_iter().map(wall).collect())
         }
         WallSource::Scene(path, line) => {
             let file = folder.join(&path);

@@ -83,6 +83,7 @@ class Shock(TypedDict):
 
     start: float
     end: float
+    fallen_before: bool
     u_max: float
     u_ratio_max: float
     overturned: bool

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from warnings import warn
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _native
 from ._folders import ReliabilityResults, StudyResults, bar, place, read_results, read_table, tell
@@ -85,7 +86,8 @@ class Study:
             a list or by their names. What is missing has its default, but no gap of a table in height,
             thickness or density. Damping and impact are those of the models; ξ and c̄ serve those that have
             none of their own.
-        :param records: Records, or paths of records, in a list or by their names.
+        :param records: Records, or paths of records, in a list or by their names. Lists with factors and
+            weights, and stripes of their own records, are those of a study file.
         :param models: Damping models by the names of study files, such as CR (restitution), "CR rigid", CDC
             (constant coefficient) and CDR (constant ratio).
         :param levels: The levels of intensity, such as `{"method": "step", "step": 0.1, "top": 5}` in the
@@ -155,7 +157,7 @@ class Study:
     def to_toml(self, path: str | PathLike[str]) -> None:
         """Writes a study that was made of parts as a study file, for `wall study ida` and for colleagues: the
         same results to the last bit. Its records are in the folder `PATH_records` beside it, as numbers in
-        text files of their names. Other files that it names, such as that of a hazard, stay where they are,
+        text files of their names, sequences as a file for each shock. Other files that it names, such as that of a hazard, stay where they are,
         by their absolute paths.
 
         Raises `FileExistsError` for a file that exists, `ValueError` for what a study file cannot hold:
@@ -350,6 +352,10 @@ def named_records(records: Any) -> list[tuple[str, Motion]]:
     if isinstance(records, str | PathLike):
         records = [records]
     if isinstance(records, Mapping):
+        of_file = [key for key in ("selection", "files", "sequences", "synthetic") if key in records]
+        if of_file and not isinstance(records[of_file[0]], Record):
+            remedy = "write them there, and read it with rw.Study(path); here give Records or paths"
+            raise TypeError(f"{of_file[0]} = ... states the records of a study file; {remedy}")
         return [(str(name), motion_of(read(record))) for name, record in records.items()]
     return [(getattr(record, "name", ""), motion_of(record)) for record in map(read, listed(records))]
 
@@ -377,6 +383,21 @@ def anchored(text: str) -> str:
     return toml_lines(options)
 
 
+def shocks_of(file: str, motion: Motion) -> dict[str, NDArray[np.float64]]:
+    """Returns files and samples of the shocks of a record, with the pause after each; of a single record, all.
+
+    The files of a sequence have the names that its own name joins, each in a folder of its number.
+    """
+    _, samples, later = motion
+    if not later:
+        return {file: samples}
+    names = file.rpartition("/")[2].split(" + ")
+    if len(names) != len(later) + 1:
+        names = [f"{names[0]} {number}" for number in range(len(later) + 1)]
+    shocks = zip(names, np.split(samples, later), strict=True)
+    return {f"{file}/{number}/{name}": shock for number, (name, shock) in enumerate(shocks, 1)}
+
+
 def write_study(
     path: Path,
     text: str,
@@ -392,9 +413,6 @@ def write_study(
             raise ValueError(f"wall {name!r} stands on storeys, which this file would need for all walls")
         groups = wall.replace("\n[", "\n[walls.").replace("[", "[walls.", 1)
         tables.append(f"\n[[walls]]\nname = {toml(name)}\n{groups}")
-    sequences = [name for name, (_, _, later) in records if later]
-    if sequences:
-        raise ValueError(f"the record {sequences[0]!r} is a sequence, whose shocks a file of numbers has not")
     steps = {step for _, (step, *_) in records}
     if len(steps) > 1:
         shown = " and ".join(f"{step:g} s" for step in sorted(steps)[:2])
@@ -403,13 +421,17 @@ def write_study(
         if name in ("", ".", "..") or not set(name).isdisjoint('/\\:*?"<>|'):
             raise ValueError(f"the record {name!r} has no name of a file; give it another one")
     folder = path.with_name(f"{path.stem}_records")
-    files = [f"{folder.name}/{name}" for name, *_ in records]
-    described = {"files": files, "format": "numbers", "step": steps.pop(), "unit": "m/s2"}
+    shocks = [shocks_of(f"{folder.name}/{name}", motion) for name, motion in records]
+    described = {"format": "numbers", "step": steps.pop(), "unit": "m/s2"}
+    if files := [name for each in shocks for name in each if len(each) == 1]:
+        described["files"] = files
+    if sequences := [list(each) for each in shocks if len(each) > 1]:
+        described |= {"sequences": sequences, "pause": 0}
     if folder.exists():
         raise FileExistsError(f"{folder}: exists; remove it, or write the study elsewhere")
     with open(path, "x", encoding="utf-8", newline="") as file:
-        folder.mkdir()
-        for (_, (_, samples, _)), name in zip(records, files):
+        for name, samples in (item for each in shocks for item in each.items()):
             numbers = "".join(f"{sample!r}\n" for sample in samples.tolist())
+            (path.parent / name).parent.mkdir(parents=True, exist_ok=True)
             (path.parent / name).write_text(numbers, encoding="utf-8", newline="")
         file.write(f"{anchored(text)}records = {toml(described)}\n{''.join(tables)}")

@@ -73,9 +73,24 @@ def _split(parameters: dict[str, Any]) -> tuple[dict[str, Any], str | None, str 
     of_law = [key for key in ("curve", "at_height", "curve_tolerance", "oscillator") if key in parameters]
     curve: dict[str, Any] = {key: parameters.pop(key) for key in of_law}
     if "curve" in curve:
-        curve["curve"] = [[float(number) for number in point] for point in curve["curve"]]
+        curve["curve"] = _pairs(curve["curve"])
     law = toml_lines({"force_law": curve}) if curve else None
     return parameters, toml_lines(tables) if tables else None, law
+
+
+def _pairs(curve: Any) -> list[list[float]]:
+    """Returns the points of a capacity curve."""
+    try:
+        points = np.asarray(curve, dtype=float)
+    except (TypeError, ValueError):
+        points = np.empty(0)
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise ValueError(
+            "curve must be pairs [[u, F], ...] in m and N, such as an array or a DataFrame of two columns; "
+            "a scene reads a file of them: Wall.from_toml"
+        )
+    pairs: list[list[float]] = points.tolist()
+    return pairs
 
 
 class Wall(Given):
@@ -171,8 +186,10 @@ class Wall(Given):
         return {name: value_of(text) for name, text in self._native.parameters}
 
     def __repr__(self) -> str:
-        names = ("mechanism", "height", "thickness", "force_law", "damping_model", "impact")
-        return f"Wall({', '.join(f'{name}={self.parameters[name]!r}' for name in names)}, ...)"
+        is_body = self.mechanism == "rigid_body"
+        of_body = ("effective_mass", "participation") if is_body else ("height", "thickness")
+        names = ("mechanism", *of_body, "force_law", "damping_model", "impact")
+        return f"Wall({', '.join(f'{name}={getattr(self, name)!r}' for name in names)}, ...)"
 
     def describe(self) -> Description:
         """Computes masses, strength, instability displacement, periods and damping.

@@ -189,15 +189,7 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
     let rows = [
         ("largest |u|", demands::largest(summary, "mm", 1)),
         ("overturned", demands::overturned(summary.fate, 3)),
-        (
-            "wall",
-            format!(
-                "{}, {} m × {} m",
-                parameters.mechanism.name().replace('_', " "),
-                number(body.height, 6),
-                number(bodies::Moving::new(wall, parameters).base(), 6)
-            ),
-        ),
+        what_rocks(scene, wall),
         ("static instability u_ins", of_sides(body.instability.map(|u| 1000.0 * u), 1, "mm")),
         ("strength F0", of_sides(body.strength.map(|force| force / 1000.0), 3, "kN")),
         ("force law", if_any(law, "ω1", wall.omega1(), "rad/s")),
@@ -210,6 +202,22 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
     let of_ties = ties.iter().zip(1..).map(|(tie, number)| row(&name(number), tie));
     let curve = scene.curve.iter().map(|curve| row("capacity curve", &curve.note()));
     rows.iter().map(|(name, value)| row(name, value)).chain(curve).chain(of_ties).collect()
+}
+
+/// The mechanism with its size, or the constants of an oscillator.
+fn what_rocks(scene: &Scene, wall: &Wall) -> (&'static str, String) {
+    let (body, parameters) = (wall.body(), &scene.parameters);
+    if is_oscillator(scene) {
+        let [mass, participation] = [body.effective_mass, body.participation].map(|value| number(value, 6));
+        return ("oscillator", format!("m_eff = {mass} kg, λ = {participation}; drawn as a rigid body"));
+    }
+    let mechanism = parameters.mechanism.name().replace('_', " ");
+    let base = bodies::Moving::new(wall, parameters).base();
+    ("wall", format!("{mechanism}, {} m × {} m", number(body.height, 6), number(base, 6)))
+}
+
+fn is_oscillator(scene: &Scene) -> bool {
+    scene.curve.as_ref().is_some_and(|curve| curve.is_of_oscillator)
 }
 
 /// A number with its unit, of both sides where they differ.
@@ -247,7 +255,7 @@ fn demands(wall: &Wall, response: &Response) -> String {
 
 /// Draws a body that is no rectangle with what its picture leaves out: forces, dimensions and its front.
 fn section(scene: &Scene, wall: &Wall) -> String {
-    if scene.parameters.is_rectangle() {
+    if scene.parameters.is_rectangle() || is_oscillator(scene) {
         return String::new();
     }
     let svg = crate::drawing::svg(wall, &scene.parameters);
@@ -265,6 +273,14 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
     };
     let ratio = plots::cut(column(&|sample| sample.outputs.ratio));
     let motion = column(&|sample| sample.support.bottom);
+    let force = plots::force_path(wall, response.samples.iter(), &ratio);
+    let (caption, force) = match scene.curve.as_ref().filter(|curve| !curve.points.is_empty()) {
+        Some(curve) => (
+            "Restoring force; dashed: its backbone; circles: the capacity curve as given",
+            plots::with_points(force, wall, curve),
+        ),
+        None => ("Restoring force; dashed: its backbone", force),
+    };
     let has_top = response.samples.iter().any(|sample| sample.support.top != sample.support.bottom);
     let top_motion = has_top.then(|| column(&|sample| sample.support.top));
     let supports = match top_motion {
@@ -278,30 +294,26 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
             "history",
             "Displacement; dashed: static instability u_ins",
             &plots::history(&ratio, end),
-            &marks(response.summary.fate),
+            &marks(response, end),
             true,
         ),
         plot("motion", supports, &plots::motion(&motion, top_motion.as_deref(), end), &[], true),
         tie::figures(wall, response, end),
-        plot(
-            "force",
-            "Restoring force; dashed: its backbone",
-            &plots::force_path(wall, response.samples.iter(), &ratio),
-            &[],
-            false,
-        ),
+        plot("force", caption, &force, &[], false),
     ]
     .concat()
 }
 
-/// Marks where the wall exceeds `u_ins`, and where it falls after a return.
-fn marks(fate: Fate) -> Vec<(f64, &'static str)> {
-    match fate {
+/// Marks where the wall exceeds `u_ins`, where it falls after a return, and the later shocks of a sequence.
+fn marks(response: &Response, end: f64) -> Vec<(f64, &'static str)> {
+    let fate = match response.summary.fate {
         Fate::Stands => Vec::new(),
         Fate::Falls { exceeds, falls } if falls == exceeds => vec![(falls, "falls")],
         Fate::Falls { exceeds, falls } => vec![(exceeds, "exceeds u_ins"), (falls, "falls")],
         Fate::ComesBack { exceeds } => vec![(exceeds, "exceeds u_ins")],
-    }
+    };
+    let later = response.shocks.iter().skip(1).map(|shock| shock.start).filter(|start| *start < end);
+    fate.into_iter().chain(later.map(|start| (start, "next shock"))).collect()
 }
 
 /// Compares a rigid wall with itself under the other kinematics; empty for walls that do not allow them.

@@ -74,6 +74,21 @@ fn the_line_of_a_wall_that_comes_back_goes_on() {
     assert!(ratio > 1.2 && -left > ratio, "the dot of the force stays within {left}: {ratio}");
 }
 
+/// The capacity curve of a force law is drawn over it, point by point.
+#[test]
+fn a_capacity_curve_is_drawn_over_the_force() {
+    let html = page(|scene| {
+        let law = "[force_law]\ncurve = [[0.01, 900.0], [0.02, 1500.0], [0.2, 0.0]]\n";
+        let given = Scene::parse("curve", law, ".".as_ref()).unwrap();
+        (scene.parameters, scene.curve) = (given.parameters, given.curve);
+    });
+    let plain = page(|_| {});
+    assert!(html.contains("circles: the capacity curve as given") && !plain.contains("circles: "));
+    // the first half of a circle of 2 px
+    let circles = |html: &str| html.matches("a2.0 2.0 0 1 0 4.0 0").count();
+    assert_eq!(circles(&html) - circles(&plain), 2 * 4, "points and origin, on screens of two widths");
+}
+
 /// A wall is pushed once to either side of its two ties: one that lasts, and one that breaks.
 #[test]
 fn a_tie_is_drawn_slack_pulling_yielding_and_broken() {

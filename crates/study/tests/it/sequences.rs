@@ -183,6 +183,11 @@ fn files_make_sequences_and_mistakes_are_named() {
     let doubled = with(doubled, grid).unwrap();
     let wanted = GroundMotion::sequence(&[shocks[0].clone(), shocks[1].scaled(2.0)], 4.0).unwrap();
     assert_eq!(doubled.study.records()[0].motion, wanted);
+    let twice =
+        format!("sequences = [{pair}, [\"main shock.csv\", {{ record = \"aftershock.csv\", scale = 2 }}]]");
+    let twice = with(&twice, grid).unwrap();
+    let names: Vec<_> = twice.study.records().iter().map(|record| &*record.name).collect();
+    assert_eq!(names, ["main shock.csv + aftershock.csv", "main shock.csv + aftershock.csv (scale 2)"]);
     let files = "files = [\"main shock.csv\"]";
     let last = format!("{grid}\nscaled_shocks = \"last\"");
     let given = |scaled: &str, given: &str| {
