@@ -122,7 +122,8 @@ pub(crate) fn list_of(path: &Path) -> Result<PathBuf, String> {
     found.ok_or_else(|| {
         let known = LISTS.join(", ");
         let remedy = "name a table of records, or a folder that has one of";
-        format!("no such list; {remedy} {known}{}", ground_motion::escapes(path))
+        let other = "records without a list go into files = [...]";
+        format!("no such list; {remedy} {known}; {other}{}", ground_motion::escapes(path))
     })
 }
 
@@ -183,7 +184,12 @@ pub(crate) fn read(list: &Path, component: Option<u64>) -> Result<Vec<ListedFile
         }
     }
     if files.is_empty() {
-        let reason = "lists no record of the component; write a row for each, and `file2` for component = 2";
+        let reason = match component {
+            Some(2) => {
+                "lists no second component; write its file in a column `file2`, or leave component out"
+            }
+            _ => "lists no record; write a row for each",
+        };
         return Err(FileError::whole(file, reason));
     }
     let mean = files.iter().map(|file| file.listed.weight).sum::<f64>() / files.len() as f64;

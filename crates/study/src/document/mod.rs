@@ -32,7 +32,7 @@ use serde::de::IgnoredAny;
 use toml::{Spanned, Value};
 
 use crate::codes::Codes;
-use crate::ida::{Collapse, IntensityMeasure, LONGEST_TAIL, Levels, Polarity, Scaled};
+use crate::ida::{Collapse, IdaError, IntensityMeasure, LONGEST_TAIL, Levels, Polarity, Scaled};
 use crate::uncertain::Uncertain;
 
 use compare::compare;
@@ -171,6 +171,8 @@ impl StudyFile {
         let walls = entries(&document.walls, &document.storeys, document.supports.as_ref(), file)?;
         let measure = measure(document.intensity.as_ref(), codes, file)?;
         let levels = levels(&document.levels, &measure, place)?;
+        let outside = |error: IdaError| place.error(document.levels.span(), error.to_string());
+        levels.check(measure.unit()).map_err(outside)?;
         let stripes = stripes(&document.levels, place);
         if let (Some(word), Levels::Cloud { .. }) = (&document.collapse_is, &levels)
             && *word.get_ref() == Collapse::Falls

@@ -47,9 +47,9 @@ fn given(manifest: &Manifest, wall: usize, results: &WallResults) -> Table {
         .text("wall", "", |_| contents.walls[wall].name.clone())
         .text("model", "model", |row| contents.models[row.0].name.clone())
         .text("given", "given", |row| row.1.clone())
-        .number("u_max_over_u_ins", "d", Digits::AtMost(3), |row| row.2)
+        .number("u_max_over_u_ins", "|u|/u_ins", Digits::AtMost(3), |row| row.2)
         .number("records", "records", Digits::AtMost(6), |row| row.3)
-        .number(contents.in_unit("theta"), "θ", OF_INTENSITY, |row| {
+        .number(contents.in_unit("theta"), format!("θ [{}]", contents.unit.name()), OF_INTENSITY, |row| {
             row.4.map(|curve| contents.unit.of(curve.median))
         })
         .number("beta", "β", OF_INTENSITY, |row| row.4.map(|curve| curve.dispersion))

@@ -31,7 +31,10 @@ pub enum IdaError {
     #[error("the tail is {value} s; it must be from 0 to {limit} s", limit = super::LONGEST_TAIL)]
     Tail { value: f64 },
     /// The last shock of a sequence cannot be scaled by itself.
-    #[error("{what}; scaled_shocks = \"last\" needs a pause of two steps, and a standing wall on the ground")]
+    #[error(
+        "{what}; scaled_shocks = \"last\" needs a pause of two steps, and a wall on the ground that stands \
+         until then: scale the shocks before it down, or leave the record out"
+    )]
     LastShock { what: String },
     /// The floors do not fit the wall (a strip wall needs two).
     #[error("wall {wall:?}, record {record:?}: {source}")]

@@ -128,7 +128,7 @@ impl Levels {
     ///
     /// # Errors
     /// [`IdaError::Levels`] for a value outside its limits.
-    pub(super) fn check(&self, unit: IntensityUnit) -> Result<(), IdaError> {
+    pub(crate) fn check(&self, unit: IntensityUnit) -> Result<(), IdaError> {
         let intensity = |value| unit.shown(value);
         let count = |count: f64| check_range("number", count, number, [1.0, MOST_LEVELS as f64]);
         let top = |top| check_range("top", top, intensity, [1e-6, HIGHEST]);

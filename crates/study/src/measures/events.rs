@@ -11,6 +11,9 @@ const RECORD: &str = "record";
 const COLUMNS: [(&str, &str, f64); 2] =
     [("magnitude", "magnitude", 10.0), ("distance_km", "distance", 20_000.0)];
 
+/// What columns are called, in small letters, that may be meant to be these, and how they begin.
+const MEANT: [[&str; 4]; 2] = [["m", "mag", "mw", "ml"], ["r", "dist", "rjb", "rrup"]];
+
 /// Magnitudes and distances of records.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Events {
@@ -41,6 +44,18 @@ impl Events {
         let given: Vec<_> = COLUMNS.iter().filter_map(|column| Some((column, place(column.0)?))).collect();
         if given.is_empty() {
             return Err(missing("`magnitude` or `distance_km`"));
+        }
+        for (wanted, [initial, starts @ ..]) in COLUMNS.iter().map(|column| column.0).zip(MEANT) {
+            let is_meant = |name: &&str| {
+                let name = name.to_lowercase();
+                name == initial || starts.iter().any(|start| name.starts_with(start))
+            };
+            let found = columns.names().iter().map(Name::written).find(is_meant);
+            if let Some(name) = found.filter(|_| place(wanted).is_none()) {
+                let message =
+                    format!("unknown column {name:?} (did you mean {wanted:?}?); rename or delete it");
+                return Err(file.error_on(columns.line(), message));
+            }
         }
         let mut numbers = Numbers::new(&columns);
         let mut rows: Vec<(String, Vec<f64>)> = Vec::new();

@@ -308,8 +308,18 @@ fn tables_of_records_are_refused_with_place_and_remedy() {
         ),
         (
             "neither",
-            TABLE.replace("magnitude", "M").replace("distance_km", "R"),
+            TABLE.replace("magnitude", "size").replace("distance_km", "away"),
             "line 1: no column `magnitude` or `distance_km`",
+        ),
+        (
+            "initial",
+            TABLE.replace("magnitude", "M"),
+            "line 1: unknown column \"M\" (did you mean \"magnitude\"?); rename or delete it",
+        ),
+        (
+            "unit",
+            TABLE.replace("distance_km", "Distance [km]"),
+            "line 1: unknown column \"Distance [km]\" (did you mean \"distance_km\"?)",
         ),
         ("number", TABLE.replace("5.4", "ML 5"), "line 3: magnitude of the record \"synthetic 2\": "),
         (

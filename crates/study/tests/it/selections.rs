@@ -188,8 +188,8 @@ fn wrong_lists_are_refused() {
             list,
             "fields of OpenQuake are intensities of events at sites",
         ),
-        ("file\n", list, "lists no record of the component; write a row for each"),
-        ("file\na1.AT2\n", "selection = \"list.csv\"\ncomponent = 2", "and `file2` for component = 2"),
+        ("file\n", list, "lists no record; write a row for each"),
+        ("file\na1.AT2\n", "selection = \"list.csv\"\ncomponent = 2", "lists no second component; write its"),
         ("file\na1.AT2\n", "selection = \"list.csv\"\ncomponent = 3", "component = 3"),
         (
             "file\na1.AT2\n",

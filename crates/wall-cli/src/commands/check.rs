@@ -76,7 +76,8 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let Arguments { plot, csv, report, .. } = arguments;
     let outputs = || plot.iter().chain(csv).chain(report);
     // before records are read, and after
-    console.check_distinct(arguments.scene.inputs(&scene), outputs())?;
+    let before = file.baseline();
+    console.check_distinct(arguments.scene.inputs(&scene).chain(&before), outputs())?;
     let code = code()?;
     console.check_distinct(&code.records().files, outputs())?;
     warn(console, &code.records().warnings, arguments.language());

@@ -1,6 +1,7 @@
 //! Text for people: stdout and stderr.
 
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 use std::fmt::{Display, Write as _};
 use std::io::{self, ErrorKind, Write};
 
@@ -11,6 +12,8 @@ use report::number;
 const MOST_LINES: usize = 9;
 const MOST_CHARACTERS: usize = 2000;
 const MOST_MESSAGES: usize = 7;
+/// Characters at the end of a message that tell its kind.
+const ENDING: usize = 16;
 
 /// Where a command prints: results on `out`, unless a file goes there (`--csv -`), and messages on `err`.
 pub(crate) struct Console<'a> {
@@ -66,11 +69,19 @@ impl<'a> Console<'a> {
         messages.into_iter().for_each(|message| self.report(&format!("warning: {message}")));
     }
 
-    /// Reports messages of one kind: the first ones, and the number of the others.
+    /// Reports messages: the first ones of each kind, and the number of the others. Those of a kind end alike.
     pub(crate) fn report_all(&self, messages: impl IntoIterator<Item = String>) {
-        let mut messages = messages.into_iter();
-        messages.by_ref().take(MOST_MESSAGES).for_each(|message| self.report(&message));
-        let more = messages.count();
+        let (mut kinds, mut more) = (BTreeMap::<String, usize>::new(), 0);
+        for message in messages {
+            let words = message.chars().rev().filter(|c| !c.is_ascii_digit());
+            let told = kinds.entry(words.take(ENDING).collect()).or_default();
+            *told += 1;
+            if *told <= MOST_MESSAGES && kinds.len() <= MOST_MESSAGES {
+                self.report(&message);
+            } else {
+                more += 1;
+            }
+        }
         if more > 0 {
             self.report(&format!("{more} more messages like these"));
         }

@@ -35,7 +35,11 @@ fn the_baseline_is_not_overwritten() {
     write("after.toml", &format!("{WALL}{TIE}{baseline}{CHECK}"));
     write("before.toml", WALL);
     fails(&folder, &["check", "after.toml", "--csv", "before.toml"], &["before.toml"]);
-    assert_eq!(content(&folder, "before.toml"), WALL);
+    let set = "check.baseline=before.svg";
+    write("before.svg", WALL);
+    let find = ["check", "after.toml", "--set", set, "--find", "thickness", "--plot", "before.svg"];
+    fails(&folder, &find, &["before.svg"]);
+    assert_eq!([content(&folder, "before.toml"), content(&folder, "before.svg")], [WALL, WALL]);
     let row = "name,height,thickness,density\nlow,4,0.4,1800\n";
     write("after.toml", &format!("walls = [{{ table = \"after.csv\" }}]\n{baseline}{CHECK}"));
     write("after.csv", row);
