@@ -91,7 +91,8 @@ impl Curve {
     /// Returns how many of its points the law keeps, how far it is from the others, how it goes on, and the
     /// doubts.
     pub fn note(&self) -> String {
-        [std::slice::from_ref(&self.kept), &self.doubts].concat().join("; ")
+        let told = std::iter::once(&self.kept).chain(&self.doubts).filter(|words| !words.is_empty());
+        told.map(String::as_str).collect::<Vec<_>>().join("; ")
     }
 
     /// Marks these parameters as those of an oscillator; without the points of its curve.
@@ -122,9 +123,9 @@ impl Curve {
         parameters.multilinear.as_ref()?;
         let scales = Statics::new(parameters).map(|statics| scales(statics.body()));
         if scales.is_ok_and(|scales| scales != self.scales) {
-            "scaled with F0 and u_ins, which were changed after it was read, as by --set; not drawn"
-                .clone_into(&mut self.kept);
-            (self.points, self.doubts) = (Vec::new(), Vec::new());
+            let scaled = "the curve is scaled with F0 and u_ins, which were changed after it was read, as by \
+                          --set or cells of a table; not drawn";
+            (self.points, self.kept, self.doubts) = (Vec::new(), String::new(), vec![scaled.to_owned()]);
         }
         Some(self)
     }

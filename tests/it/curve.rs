@@ -287,7 +287,7 @@ fn a_curve_follows_changes_of_its_wall() {
     assert_eq!(changed("xi", "0.03"), scene.curve);
     assert_eq!(changed("force_law", "bilinear"), None);
     let scaled = changed("thickness", "0.3").unwrap();
-    assert!(scaled.points.is_empty() && scaled.note().starts_with("scaled with F0 and u_ins"));
+    assert!(scaled.points.is_empty() && scaled.note().starts_with("the curve is scaled with F0 and u_ins"));
     let oscillator = "[force_law]\ncurve = [[0.02, 1000.0], [0.2, 0.0]]\n\
                       oscillator = { effective_mass = 800.0, participation = 1.2 }\n[damping]\nxi = 0.05\n";
     let mut oscillator = read("changes", oscillator, "").unwrap();

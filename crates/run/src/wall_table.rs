@@ -30,8 +30,9 @@ const NO_NAMES: &str = "nan na n/a none null total sum mean average count std to
 /// Parameters that every wall of a table has if one has it.
 const WITHOUT_GAPS: [&str; 3] = ["height", "thickness", "density"];
 
-/// Reads the walls of a table with the capacity curves of their scenes. An empty cell leaves its parameter at the default, but for [`WITHOUT_GAPS`]; a
-/// row without any content is skipped, and one with a name and no value refused. `scene_of` reads a scene.
+/// Reads the walls of a table with the capacity curves of their scenes. An empty cell leaves its parameter at
+/// the default, but for [`WITHOUT_GAPS`]; a row without any content is skipped, and one with a name and no
+/// value refused. `scene_of` reads a scene.
 pub(crate) fn read(
     path: &Path,
     scene_of: &mut dyn FnMut(&Path) -> Result<Stated, SceneError>,

@@ -157,8 +157,8 @@ class Study:
     def to_toml(self, path: str | PathLike[str]) -> None:
         """Writes a study that was made of parts as a study file, for `wall study ida` and for colleagues: the
         same results to the last bit. Its records are in the folder `PATH_records` beside it, as numbers in
-        text files of their names, sequences as a file for each shock. Other files that it names, such as that of a hazard, stay where they are,
-        by their absolute paths.
+        text files of their names, sequences as a file for each shock, whose names they then go by. Other
+        files that it names, such as that of a hazard, stay where they are, by their absolute paths.
 
         Raises `FileExistsError` for a file that exists, `ValueError` for what a study file cannot hold:
         walls on storeys, records with several steps, names that are not those of files.
@@ -384,7 +384,7 @@ def anchored(text: str) -> str:
 
 
 def shocks_of(file: str, motion: Motion) -> dict[str, NDArray[np.float64]]:
-    """Returns files and samples of the shocks of a record, with the pause after each; of a single record, all.
+    """Returns files and samples of the shocks of a record, with the pause after each; of one record all.
 
     The files of a sequence have the names that its own name joins, each in a folder of its number.
     """

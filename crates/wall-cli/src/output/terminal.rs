@@ -69,7 +69,7 @@ impl<'a> Console<'a> {
         messages.into_iter().for_each(|message| self.report(&format!("warning: {message}")));
     }
 
-    /// Reports messages: the first ones of each kind, and the number of the others. Those of a kind end alike.
+    /// Reports the first messages of each kind, and the number of the others. Those of a kind end alike.
     pub(crate) fn report_all(&self, messages: impl IntoIterator<Item = String>) {
         let (mut kinds, mut more) = (BTreeMap::<String, usize>::new(), 0);
         for message in messages {
