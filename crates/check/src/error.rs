@@ -29,8 +29,18 @@ pub enum CheckError {
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The parameters of the wall.
-    #[error(transparent)]
+    #[error("{_0}{}", falls(_0))]
     Parameters(#[from] ParameterError),
+}
+
+/// What a check has to add about a wall that falls by its own loads.
+fn falls(error: &ParameterError) -> &'static str {
+    if matches!(error, ParameterError::Overturns { .. }) {
+        "; the body falls at rest: its α0 and d_0 are below 0 and it has ζ_E = 0, also with a tie, which \
+         does not count in d_0 (C8.7.1.2.1.6)"
+    } else {
+        ""
+    }
 }
 
 impl CheckError {
@@ -54,7 +64,7 @@ impl CheckError {
         match self {
             Self::Value { keys, message } => Self::Value { keys, message: at(message) },
             Self::Wall { message } => Self::Wall { message: at(message) },
-            Self::Parameters(error) => Self::Wall { message: at(error.to_string()) },
+            error @ Self::Parameters(_) => Self::Wall { message: at(error.to_string()) },
             Self::Scene(error) => Self::Wall { message: at(error.to_string()) },
             error => error,
         }

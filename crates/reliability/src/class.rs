@@ -44,6 +44,8 @@ pub(crate) struct Class {
     pub(crate) refused: Vec<(String, String)>,
     /// Walls whose hinge the check has elsewhere than the runs, with both places.
     pub(crate) hinges: Vec<(String, [f64; 2])>,
+    /// Walls of which the check has another body than the runs.
+    pub(crate) other_bodies: Vec<String>,
 }
 
 impl Class {
@@ -55,6 +57,7 @@ impl Class {
         };
         self.least = found.least;
         self.hinges.extend(found.hinges.map(|hinges| (wall.name.clone(), hinges)));
+        self.other_bodies.extend(found.is_other_body.then(|| wall.name.clone()));
         let all = found.answers.iter().filter_map(|answer| {
             Some(Found {
                 model: answer.model,

@@ -57,6 +57,14 @@ fn warnings(class: &Class) -> Vec<String> {
             counted(class.hinges.len(), "wall")
         ));
     }
+    if let Some(name) = class.other_bodies.first() {
+        told.push(format!(
+            "{}: the check has another body than the runs, wall {name:?}: the wedge with the crack of \
+             crack_angles, or what stands above a level of hinge_levels; state that body in [geometry] for \
+             both",
+            counted(class.other_bodies.len(), "wall")
+        ));
+    }
     if !class.refused.is_empty() {
         let named = class.refused.iter().take(NAMED).map(|(name, reason)| format!("{name:?}: {reason}"));
         let named: Vec<_> = named.collect();

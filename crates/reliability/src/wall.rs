@@ -84,6 +84,8 @@ pub struct WallReliability {
     pub least: f64,
     /// Where the hinge of a strip is in the runs and in the check, where it differs \[-\].
     pub hinges: Option<[f64; 2]>,
+    /// Whether the check has another body than the runs: with a crack that it searched, or above a level.
+    pub is_other_body: bool,
 }
 
 /// Returns a wall as a check sees it.
@@ -136,7 +138,8 @@ impl WallReliability {
             parameters.mechanism == Mechanism::VerticalSpanning && (hinges[0] - hinges[1]).abs() > SAME_HINGE;
         let answers = answers(models, &checks, &events);
         let (least, hinges) = (fitting.least_probability(), differs.then_some(hinges));
-        Ok(Self { checks, governs, events, answers, turned, least, hinges })
+        let is_other_body = parameters.profile != verdict.details.parameters().profile;
+        Ok(Self { checks, governs, events, answers, turned, least, hinges, is_other_body })
     }
 }
 

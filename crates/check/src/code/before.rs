@@ -4,7 +4,7 @@ use report::table::{Column, Digits, Table};
 use serde_json::{Value, json};
 
 use super::row::Row;
-use crate::words::markup::table_as_cards;
+use crate::words::markup::{as_written, table_as_cards};
 use crate::words::{Language, Sentence, passed, say};
 
 /// The state before an intervention.
@@ -59,19 +59,17 @@ impl Before {
 
     /// Both states for a terminal.
     pub(super) fn text(&self, after: &[Row], language: Language) -> String {
-        let [said, headline] = [self.said(), self.headline.clone()].map(|said| said.of(language).to_owned());
+        let said = say!("Before ({title})", "Stato di fatto ({title})", title = self.title);
+        let [said, headline] = [said.of(language), self.headline.of(language)];
         format!("{said}: {headline}\n{}\n", self.table(after, language).text())
     }
 
     /// Both states as markup.
     pub(crate) fn markup(&self, after: &[Row], language: Language) -> String {
-        let [said, headline] = [self.said(), self.headline.clone()].map(|said| said.markup(language));
+        let (said, headline) = (say!("Before", "Stato di fatto"), self.headline.markup(language));
+        let said = format!("{} ({})", said.markup(language), as_written(&self.title));
         let table = table_as_cards(&self.table(after, language), |_| "", "");
         format!("<p>{said}: {headline}</p>\n<div class=\"checks\">{table}</div>")
-    }
-
-    fn said(&self) -> Sentence {
-        say!("Before ({title})", "Stato di fatto ({title})", title = self.title)
     }
 
     /// The state before by names.

@@ -1,6 +1,7 @@
 //! What every code says of a wall: a verdict with rows, and what only that code knows.
 
 use rocking_wall::wall::{Parameters, Wall};
+use run::drawing::View;
 use serde_json::{Value, json};
 
 use super::before::{Before, least};
@@ -107,7 +108,7 @@ pub trait Details {
     fn sections(&self, origin: &Origin<'_>) -> Result<Vec<Section>, CheckError> {
         let language = origin.report.language;
         let (wall, parameters) = (self.wall(), self.parameters());
-        let drawn = drawing::figure(wall, parameters, language);
+        let drawn = drawing::figure(wall, parameters, View::Whole, None, language);
         let wall = drawn + &of_wall(wall, parameters, origin, &|_, _| true);
         let ledgers = self.ledgers();
         let head = |side| if ledgers.len() > 1 { side_head(side, None, language) } else { String::new() };

@@ -66,7 +66,15 @@ impl Grid {
         let text = with_periods(text.trim_start_matches('\u{feff}'));
         let columns = Columns::of_texts(&text, forms).map_err(fault)?;
         let head = columns.line();
-        let plain = |name: &Name| name.written().replace('*', "").to_lowercase().replace("fo_", "f0_");
+        let plain = |name: &Name| {
+            let name = name.written().replace('*', "").to_lowercase().replace("fo", "f0");
+            // ag30 is ag_30
+            let is_period = |of: &&str| name.strip_prefix(*of).is_some_and(|t| t.parse::<f64>().is_ok());
+            match ["ag", "f0", "tc"].into_iter().find(is_period) {
+                Some(of) => format!("{of}_{}", &name[of.len()..]),
+                None => name,
+            }
+        };
         let names: Vec<String> = columns.names().iter().map(plain).collect();
         let column = |names_of: &[&str]| {
             let found = names.iter().position(|name| names_of.contains(&name.as_str()));
@@ -246,7 +254,9 @@ fn periods(names: &[String]) -> Result<Vec<(f64, &str)>, String> {
         return Err(format!("columns ag_{a} and ag_{b} have the same return period; delete one"));
     }
     if periods.len() < 2 {
-        return Err("the grid needs columns ag_T, F0_T and TC_T for two return periods T or more".into());
+        let message = "the grid needs columns of a_g, F0 and T_C* for two return periods in years or more: \
+                       ag_30, F0_30, TC_30, ag_50, …, or ag, Fo, TC* below a line with TR = 30, TR = 50, …";
+        return Err(message.into());
     }
     Ok(periods)
 }

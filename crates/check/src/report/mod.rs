@@ -176,7 +176,7 @@ fn source(origin: &Origin<'_>, verdict: &Verdict<'_>) -> String {
 fn document(origin: &Origin<'_>) -> Result<String, CheckError> {
     let own = file_name(Path::new(origin.file.name()));
     let mut files = vec![(own, fingerprint(origin.file.text().as_bytes()))];
-    for path in &origin.records.files {
+    for path in origin.file.baseline().iter().chain(&origin.records.files) {
         let bytes = std::fs::read(path).map_err(|error| {
             let reason = format!("{error}; the file could be read earlier in this run");
             FileError::whole(path.display().to_string(), reason)

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use rocking_wall::variables::{EccentricityMode, Mechanism};
 use rocking_wall::wall::{Parameters, Tie, Wall};
-use run::drawing::Words;
+use run::drawing::{View, Words};
 
 use crate::words::{Language, Sentence, at_most, say, shown};
 
@@ -34,11 +34,25 @@ struct Drawing<'a> {
     svg: String,
 }
 
-/// The figure, with what its marks mean.
-pub(crate) fn figure(of: &Wall, parameters: &Parameters, language: Language) -> String {
+/// The figure, with what its marks mean. A body of parts has a view. One above a level of another that is
+/// drawn says where its heights count from \[m\].
+pub(crate) fn figure(
+    of: &Wall,
+    parameters: &Parameters,
+    view: View,
+    level: Option<f64>,
+    language: Language,
+) -> String {
     let body = of.body();
+    let said = match level {
+        _ if view == View::Front => vec![say!("The front.", "Il prospetto.")],
+        Some(z) => vec![say!("Heights count from {z} m.", "Quote a partire da {z} m.", z)],
+        None => marks(of, parameters),
+    };
+    let said: Vec<_> = said.iter().map(|said| said.markup(language)).collect();
+    let said = said.join(" ");
     if !body.is_rectangle {
-        return of_body(of, parameters, language);
+        return of_body(of, parameters, &said, view, language);
     }
     let thickness = parameters.thickness;
     let scale = (ROOM[0] / thickness).min(ROOM[1] / body.height);
@@ -53,8 +67,6 @@ pub(crate) fn figure(of: &Wall, parameters: &Parameters, language: Language) -> 
     // without an overburden nothing stands above the wall
     let from = if body.overburden > 0.0 { 0.0 } else { drawing.top() - 20.0 };
     let height = height - from;
-    let said: Vec<_> = marks(of, parameters).iter().map(|said| said.markup(language)).collect();
-    let said = said.join(" ");
     let label = say!("the wall to scale", "la parete in scala");
     let label = label.of(language);
     format!(
@@ -66,22 +78,16 @@ pub(crate) fn figure(of: &Wall, parameters: &Parameters, language: Language) -> 
 }
 
 /// The figure of a body: its section with loads, thrusts and ties, and its front.
-fn of_body(of: &Wall, parameters: &Parameters, language: Language) -> String {
+fn of_body(of: &Wall, parameters: &Parameters, said: &str, view: View, language: Language) -> String {
     let words = match language {
         Language::En => Words::EN,
         Language::It => Words::IT,
     };
-    let mut said: Vec<_> = marks(of, parameters).iter().map(|said| said.markup(language)).collect();
-    let loads = say! {
-        "Arrows: loads and thrusts. ⊙ Centroid of the masonry.",
-        "Frecce: carichi e spinte. ⊙ Baricentro della muratura."
-    };
-    said.push(loads.markup(language));
-    let svg = run::drawing::without_legend(of, parameters, words);
+    let svg = run::drawing::without_legend(of, parameters, words, view);
     let label = say!("the wall to scale", "la parete in scala");
     let svg =
         svg.replace("aria-label=\"the wall to scale\"", &format!("aria-label=\"{}\"", label.of(language)));
-    format!("<figure><figcaption>{}</figcaption>{svg}</figure>\n", said.join(" "))
+    format!("<figure><figcaption>{said}</figcaption>{svg}</figure>\n")
 }
 
 /// What the marks of a drawing mean.
@@ -111,6 +117,13 @@ fn marks(of: &Wall, parameters: &Parameters) -> Vec<Sentence> {
             say! {
                 "Hinges are set back from the edges: `a3` = {a3}.",
                 "Le cerniere sono arretrate dagli spigoli: `a3` = {a3}.", a3 = at_most(parameters.a3, 6)
+            },
+        ),
+        (
+            !of.body().is_rectangle,
+            say! {
+                "Arrows: loads and thrusts. ⊙ Centroid of the masonry.",
+                "Frecce: carichi e spinte. ⊙ Baricentro della muratura."
             },
         ),
     ];

@@ -3,11 +3,11 @@
 use ::report::escaped;
 
 /// Symbols with an index that sentences and tables have. Names of keys, files and walls may look alike.
-const SYMBOLS: [&str; 42] = [
+const SYMBOLS: [&str; 43] = [
     "a_0", "a_1", "a_max", "a_g", "a_g,SLD", "a_g,cap", "a_s", "a_y", "a_Z", "C_U", "d_0", "d_1", "d_s",
     "d_SLC", "d_SLV", "d_u", "d_y", "f_d", "f_m", "N_y", "S_a", "S_d", "S_e", "S_eZ", "S_S", "S_T", "T_1",
     "T_B", "T_C", "T_D", "T_R", "T_s", "T_SLC", "T_SLV", "u_0", "u_ins", "u_r", "u_y", "k_0", "V_N", "V_R",
-    "ξ_k",
+    "z_G", "ξ_k",
 ];
 
 /// A text as markup: what stands between grave accents, and symbols with an index, are formulas.
@@ -29,6 +29,7 @@ fn with_symbols(text: &str) -> String {
         match word {
             "zeta_E" | "ζ_E" => markup += &formula("ζ_E"),
             "alpha0" | "α0" => markup += &formula("α0"),
+            "F0" => markup += &formula("F0"),
             _ if SYMBOLS.contains(&word) => markup += &formula(word),
             _ => markup += &escaped(word),
         }
@@ -51,6 +52,11 @@ pub(crate) fn formula(text: &str) -> String {
         let is_symbol = word.chars().count() == 1 && word != "π";
         let [open, close] = if is_symbol { ["<i>", "</i>"] } else { ["", ""] };
         markup.extend([open, word, close]);
+        // e*_w
+        if rest.starts_with("*_") {
+            markup.push('*');
+            rest = &rest[1..];
+        }
         let index = match rest.strip_prefix('_') {
             Some(after) => {
                 rest = after;

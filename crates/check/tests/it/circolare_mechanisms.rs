@@ -9,11 +9,14 @@ use crate::report::{plain, report_of_one};
 const G: f64 = 9.81;
 const DENSITY: f64 = 1800.0;
 
-/// A strip of two parts, flush outside, with loads (force, height, place) whose masses move.
+/// A strip of two parts, flush outside, with loads (force, height, place) whose masses move, and ties that
+/// count at the activation.
 struct Strip {
     /// Thickness and height.
     parts: [[f64; 2]; 2],
     loads: Vec<[f64; 3]>,
+    /// Height and strength.
+    ties: Vec<[f64; 2]>,
 }
 
 impl Strip {
@@ -30,15 +33,27 @@ impl Strip {
         let thin = parts[0][0].min(parts[1][0]);
         let at_step = [next(5e3, 40e3), step, next(0.0, 1.2 * thin)];
         let within = [next(0.0, 20e3), next(0.2, 0.8) * top, next(0.0, 1.2 * thin)];
-        Self { parts, loads: vec![at_step, within, [next(5e3, 20e3), top, 0.5 * parts[1][0]]] }
+        let loads = vec![at_step, within, [next(5e3, 20e3), top, 0.5 * parts[1][0]]];
+        Self { parts, loads, ties: Vec::new() }
     }
 
     fn height(&self) -> f64 {
         self.parts[0][1] + self.parts[1][1]
     }
 
-    /// α0 with the hinge at a height, by the virtual work of both bodies about their toes.
+    /// The displacement of a height for one of 1 at the hinge.
+    fn phi(&self, z: f64, h1: f64) -> f64 {
+        if z <= h1 { z / h1 } else { (self.height() - z) / (self.height() - h1) }
+    }
+
     fn alpha0(&self, h1: f64, sign: f64) -> f64 {
+        let [held, pushed] = self.work(h1, sign);
+        held / pushed
+    }
+
+    /// What holds and what pushes with the hinge at a height, by the virtual work of both bodies about their
+    /// toes.
+    fn work(&self, h1: f64, sign: f64) -> [f64; 2] {
         let [[lower, step], [upper, _]] = self.parts;
         let (h, h2) = (self.height(), self.height() - h1);
         let [below, above] = [if h1 <= step { lower } else { upper }, if h1 < step { lower } else { upper }];
@@ -63,7 +78,8 @@ impl Strip {
             }
         }
         self.loads.iter().for_each(|[force, z, x]| add(*force, *x, *z, *z <= h1));
-        held / pushed
+        held += self.ties.iter().map(|[z, strength]| strength * self.phi(*z, h1)).sum::<f64>();
+        [held, pushed]
     }
 
     /// The least α0 of a scan, and its height: equal heights, and both sides of the step and of each load.
@@ -79,9 +95,20 @@ impl Strip {
     fn scene(&self) -> String {
         let parts = self.parts.map(|[thickness, height]| part(thickness, height)).concat();
         let loads: String = self.loads.iter().map(|[force, z, x]| load(*force, *z, *x, 1.0, "")).collect();
-        "[geometry]\nmechanism = \"vertical_spanning\"\n".to_owned() + &parts + &loads + &check("")
+        let tie = |[z, strength]: &[f64; 2]| {
+            format!(
+                "[[tie]]\ntie_height = {z}\ntie_stiffness = {STIFFNESS}\ntie_strength = {strength}\n\
+                 tie_ultimate = 0.5\ntie_side = \"both\"\n"
+            )
+        };
+        let ties: String = self.ties.iter().map(tie).collect();
+        let counts = if ties.is_empty() { "" } else { "tie = { at_activation = \"yield\" }" };
+        format!("[geometry]\nmechanism = \"vertical_spanning\"\n{parts}{loads}{ties}{}", check(counts))
     }
 }
+
+/// Stiffness of ties \[N/m\].
+const STIFFNESS: f64 = 2e7;
 
 /// The hinge of a strip of parts is where a scan of all heights has the least α0, at the step of the
 /// thickness and at loads on the side that has it.
@@ -108,6 +135,42 @@ fn the_hinge_of_a_strip_of_parts_has_the_least_multiplier_of_all_heights() {
         }
     }
     assert!(at_jumps > 5 && beside > 5, "{at_jumps} at a jump, {beside} beside");
+}
+
+/// Ties of a strip do virtual work by φ, and are stretched by φ u: at the hinge of the least α0 of all
+/// heights, and with the hinge of the scene at the activation and at the limit state.
+#[test]
+fn ties_of_a_strip_hold_it_by_their_displacement() {
+    for seed in 0..8 {
+        let mut strip = Strip::numbered(seed);
+        let (h, untied) = (strip.height(), sides_in_json(&strip.scene()));
+        strip.ties = vec![[0.4 * h, 2e3], [0.55 * h, 3e3]];
+        strip.ties.truncate(1 + usize::from(seed % 2 == 1));
+        let sides = sides_in_json(&strip.scene());
+        assert!(assert_gives(&report_of_one(&strip.scene())) > 40, "{seed}");
+        for (side, sign) in [("positive", 1.0), ("negative", -1.0)] {
+            let (found, own) = (&sides[side], &untied[side]);
+            let [scanned, z] = strip.scanned(sign);
+            let least = number(found, &["least_alpha0", "alpha0"]);
+            // as for strips without ties
+            assert!((least / scanned - 1.0).abs() < 2e-7, "{seed}: {least}, a scan {scanned} at {z} m");
+            let h1 = number(found, &["hinge_ratio"]) * h;
+            near(number(found, &["activation", "alpha0"]), strip.alpha0(h1, sign), "alpha0");
+            let [_, pushed] = strip.work(h1, sign);
+            let d = number(found, &["SLV", "d"]);
+            let (u, mut work) = (d / number(found, &["d_per_u"]), 0.0);
+            for (index, [z, strength]) in strip.ties.iter().enumerate() {
+                let phi = strip.phi(*z, h1);
+                work += phi * strength.min(STIFFNESS * phi * u);
+                let tie = if strip.ties.len() == 1 { &found["tie"] } else { &found["ties"][index] };
+                near(number(tie, &["u_yield"]), strength / STIFFNESS / phi, "u_yield");
+                near(number(tie, &["u_break"]), (strength / STIFFNESS + 0.5) / phi, "u_break");
+            }
+            // a = g α/(e* FC), the curve of the wall alone as it is without ties
+            let alpha = number(own, &["alpha0"]) * (1.0 - d / number(own, &["d0"])) + work / pushed;
+            near(number(found, &["SLV", "a"]), G * alpha / number(own, &["e_star"]) / 1.35, "a(d_SLV)");
+        }
+    }
 }
 
 /// A wedge of a transverse wall, 0.5 m thick, behind a façade of 0.45 m.
@@ -228,7 +291,7 @@ fn the_mechanisms_of_the_scenes_are_reported() {
     for (name, bodies, said) in [
         ("compound_overturning", 1, ["0 to 1.715 m, β = 15°", "compound overturning"]),
         ("corner", 1, ["5737.49 · 9.81 · 10⁻³", "26918.4 kg m²"]),
-        ("gable", 2, ["Body above 6.4 m", "Part from 6.4 to 9 m"]),
+        ("gable", 3, ["Body above 6.4 m", "Part from 6.4 to 9 m"]),
         ("two_storeys", 1, ["h₁ = ", "Load at 3.3 m"]),
     ] {
         let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();

@@ -86,7 +86,7 @@ fn the_lines_of_a_grid_stand_for_its_file() {
     let (_, table) = told.split_once('\n').unwrap();
     let (from_lines, said) = checked_in(Path::new("nowhere"), table).unwrap();
     assert_eq!(from_lines, from_file);
-    let of_file = |note: &String| note.replace("grid of grid.csv", "grid of [check.site]");
+    let of_file = |note: &String| note.replace("grid of grid.csv", "grid in the file");
     assert_eq!(said, notes.iter().map(of_file).collect::<Vec<_>>());
     // what holds its lines already stays as it is
     let again = CheckFile::parse("nowhere/a.toml", &told).unwrap().self_contained().unwrap();

@@ -105,13 +105,6 @@ fn walls_without_a_curve_for_the_limit_state_are_refused() {
             strong("force_law = \"multilinear\"\npoints = [[0.05, 0.9], [1.0, 0.0]]"),
             "a trilinear or multilinear law has its own",
         ),
-        (
-            strip(0.03, "", "before_activation = \"law\"").replace(
-                "[force_law]",
-                "[tie]\ntie_height = 3\ntie_stiffness = 5e6\ntie_strength = 10e3\n[force_law]",
-            ),
-            "by levers that change with the hinge that is searched; leave [tie] out",
-        ),
     ] {
         let error = Scene::parse("scene.toml", &text, ".".as_ref()).map(|_| checked(&text));
         let error = error.map_or_else(|error| error.to_string(), |checked| checked.expect_err(message));

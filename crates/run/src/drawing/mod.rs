@@ -34,19 +34,33 @@ const BARS: [f64; 10] = [50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05];
 
 /// Draws a wall to scale, as SVG for a file and for pages: on white, which pages invert in the dark.
 pub fn svg(wall: &Wall, parameters: &Parameters) -> String {
-    drawn(wall, parameters, Words::EN, true)
+    drawn(wall, parameters, Words::EN, View::Whole, true)
 }
 
-/// Draws a wall to scale as [`svg`] does, with other words and without a legend.
-pub fn without_legend(wall: &Wall, parameters: &Parameters, words: Words) -> String {
-    drawn(wall, parameters, words, false)
+/// What a drawing shows of a wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// The section, and below it the front where that shows more.
+    Whole,
+    /// The section.
+    Section,
+    /// The front.
+    Front,
 }
 
-fn drawn(wall: &Wall, parameters: &Parameters, words: Words, has_legend: bool) -> String {
+/// Draws a wall to scale as [`svg`] does, or a view of it, with other words and without a legend.
+pub fn without_legend(wall: &Wall, parameters: &Parameters, words: Words, view: View) -> String {
+    drawn(wall, parameters, words, view, false)
+}
+
+fn drawn(wall: &Wall, parameters: &Parameters, words: Words, view: View, has_legend: bool) -> String {
     let shape = Shape::new(wall, parameters);
     let mut canvas = Canvas { svg: String::new(), words };
-    let mut height = section::draw(&mut canvas, &shape, wall, parameters);
-    if shape.has_front() {
+    let mut height = 0.0;
+    if view != View::Front {
+        height = section::draw(&mut canvas, &shape, wall, parameters);
+    }
+    if view == View::Front || view == View::Whole && shape.has_front() {
         height = front::draw(&mut canvas, &shape, height);
     }
     let legend = if has_legend { legend(&shape, wall, parameters) } else { Vec::new() };

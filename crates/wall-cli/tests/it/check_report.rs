@@ -366,8 +366,8 @@ fn hinges_have_their_own_section() {
     assert_has(
         &hinges,
         &[
-            "least_alpha00.659",
-            "worst0.80440.8003yes",
+            "Hinge of the least multiplier0.659",
+            "Least favourable hinge0.80440.8003yes",
             "α0,min = 1.465",
             "SLV with q0.63182.202",
             "SLV0.62740.8159",
@@ -386,6 +386,6 @@ fn hinges_have_their_own_section() {
         &hinges,
         &["fd = fm/(γ FC) = 1.5/(1 · 1.2) = 1.25 MPa", "= 40.16 mm", "= 34.20 mm", "= 28.24 mm"],
     );
-    assert_has(&hinges, &["given0.5"]);
+    assert_has(&hinges, &["Hinge as given0.5"]);
     assert_has(&section(&page, "Capacity"), &["α0 = Fact/W = 47.93/25.35 = 1.891"]);
 }

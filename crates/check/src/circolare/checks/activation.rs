@@ -113,7 +113,8 @@ fn strength_at_activation(curve: &Curve, index: usize, tie: &Tie) -> Result<f64,
         let [yields, limit] = apart([yields, limit].map(|u| 1e3 * u), 4);
         return refused(format!(
             "needs a stiff tie: this one has its strength at u_y = {yields} mm, beyond {SOFTEST} u_0 = \
-             {limit} mm; state \"none\", or a stiffer tie"
+             {limit} mm; state \"none\", or a tie with less N_y/K: a bar with less length or yield_stress, \
+             for its diameter does not change it"
         ));
     }
     Ok(tie.pull * strength)

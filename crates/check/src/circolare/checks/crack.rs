@@ -49,7 +49,7 @@ pub(crate) fn searched(mut case: Case<'_>) -> Result<Case<'_>, CheckError> {
     let alpha0 = |angle: f64| {
         let mut own = case.clone();
         own.parameters = cracked(&case.parameters, &profile, angle)?;
-        let curve = Curve::new(&own, sign, None, true)?;
+        let curve = Curve::new(&own, sign, None)?;
         Ok([at_activation(&curve, case.statement)?.alpha0])
     };
     let at =

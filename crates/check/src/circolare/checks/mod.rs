@@ -39,18 +39,12 @@ pub struct Checks {
 }
 
 impl Checks {
-    /// The curve and the checks of a side, with the hinge of a strip at `hinge` h; `tied` says whether the
-    /// tie counts.
+    /// The curve and the checks of a side, with the hinge of a strip at `hinge` h.
     ///
     /// # Errors
     /// [`CheckError`] of a wall or a demand that has no check.
-    pub(super) fn at(
-        case: &Case<'_>,
-        sign: f64,
-        hinge: Option<f64>,
-        tied: bool,
-    ) -> Result<(Curve, Self), CheckError> {
-        Self::of_these(case, sign, hinge, tied, [true; 4])
+    pub(super) fn at(case: &Case<'_>, sign: f64, hinge: Option<f64>) -> Result<(Curve, Self), CheckError> {
+        Self::of_these(case, sign, hinge, [true; 4])
     }
 
     /// The same with those of the checks that are wanted, in the order of
@@ -59,7 +53,6 @@ impl Checks {
         case: &Case<'_>,
         sign: f64,
         hinge: Option<f64>,
-        tied: bool,
         wanted: [bool; 4],
     ) -> Result<(Curve, Self), CheckError> {
         let named = |error: CheckError| match hinge {
@@ -67,7 +60,7 @@ impl Checks {
             _ => error,
         };
         let found = || {
-            let curve = Curve::new(case, sign, hinge, tied)?;
+            let curve = Curve::new(case, sign, hinge)?;
             let demands = match &case.shared {
                 Some(shared) => shared,
                 None => &case.demands_at(curve.body())?,

@@ -52,7 +52,8 @@ impl SideVerdict {
     /// [`CheckError`] of a wall or a demand that has no check.
     pub(crate) fn new(case: &Case<'_>, sign: f64) -> Result<Self, CheckError> {
         let (curve, checks) = by_rule(case, sign, case.rule, hinge::FINE)?;
-        let untied = curve.tie().is_some().then(|| Checks::at(case, sign, curve.hinge, false)).transpose()?;
+        let is_tied = curve.tie().is_some();
+        let untied = is_tied.then(|| by_rule(&case.untied(), sign, case.rule, hinge::FINE)).transpose()?;
         let untied = untied.map(|(_, checks)| Untied {
             slv: checks.slv.map(|check| check.zeta),
             slc: checks.slc.map(|check| check.zeta),
@@ -63,7 +64,7 @@ impl SideVerdict {
         let mut others: Vec<Curve> = Vec::new();
         for hinge in Deciding::ALL.into_iter().filter_map(|check| checks.hinge(check)) {
             if curve.hinge != Some(hinge) && others.iter().all(|other| other.hinge != Some(hinge)) {
-                others.push(Curve::new(case, sign, Some(hinge), true)?);
+                others.push(Curve::new(case, sign, Some(hinge))?);
             }
         }
         let sensitivity = sensitivity(case, sign);
@@ -98,7 +99,7 @@ impl SideVerdict {
         };
         let finite = |zeta: f64| Some(zeta).filter(|zeta| zeta.is_finite());
         let found = self.least_alpha0.insert(LeastAlpha0 {
-            alpha0: curve.alpha0,
+            alpha0: at_activation(&curve, statement)?.alpha0,
             hinge: curve.hinge.unwrap_or(f64::NAN),
             zeta: finite(at_least.governing(statement).1),
             worst: None,
@@ -252,17 +253,20 @@ impl SideVerdicts {
     }
 }
 
-/// The place of the least α0 on a side, of h \[-\], C8.7.1.2.1.1.
+/// The place of the least α0 on a side, of h \[-\], C8.7.1.2.1.1, ties that count at the activation included.
 fn least_alpha0(case: &Case<'_>, sign: f64) -> Result<f64, CheckError> {
     let alpha0 = |x: f64| {
-        Curve::new(case, sign, Some(x), true).map(|curve| curve.alpha0).map_err(|error| error.at_hinge(x))
+        let curve = Curve::new(case, sign, Some(x));
+        let activation = curve.and_then(|curve| at_activation(&curve, case.statement));
+        activation.map(|found| found.alpha0).map_err(|error| error.at_hinge(x))
     };
     let range @ [from, to] = case.statement.hinge_range;
     // of a rectangle F₀ h = 2 (W + O) b/x + O (b + 2c)/(1 − x), least where (1 − x)²/x² = r,
     // r = O (b + 2c)/[2 (W + O) b]
-    let is_plain = case.statement.masonry.is_none() && !has_plateau(&case.parameters);
+    let is_tied = case.parameters.ties().any(|tie| tie.stiffness > 0.0);
+    let is_plain = case.statement.masonry.is_none() && !has_plateau(&case.parameters) && !is_tied;
     if is_plain && case.parameters.is_rectangle() {
-        let curve = Curve::new(case, sign, Some(0.5 * (from + to)), true)?;
+        let curve = Curve::new(case, sign, Some(0.5 * (from + to)))?;
         let Body { weight, overburden, height, .. } = *curve.body();
         let first = 2.0 * (weight + overburden) * case.parameters.thickness;
         let h1 = curve.body().hinge_height;
@@ -286,21 +290,21 @@ fn by_rule(
     search: Search,
 ) -> Result<(Curve, Checks), CheckError> {
     match rule {
-        None => Checks::at(case, sign, None, true),
-        Some(Hinge::Given) => Checks::at(case, sign, Some(case.parameters.hinge_ratio), true),
-        Some(Hinge::LeastAlpha0) => Checks::at(case, sign, Some(least_alpha0(case, sign)?), true),
+        None => Checks::at(case, sign, None),
+        Some(Hinge::Given) => Checks::at(case, sign, Some(case.parameters.hinge_ratio)),
+        Some(Hinge::LeastAlpha0) => Checks::at(case, sign, Some(least_alpha0(case, sign)?)),
         Some(Hinge::Worst) => {
             let range = case.statement.hinge_range;
             let counts = Deciding::ALL.map(|check| search.is_fine() || case.statement.decides(check));
             let places = hinge::least(search, range, &hinge::jumps(&case.parameters), |x, which| {
                 let wanted = which.map_or(counts, |which| std::array::from_fn(|check| check == which));
-                let mut zetas = Checks::of_these(case, sign, Some(x), true, wanted)?.1.zetas();
+                let mut zetas = Checks::of_these(case, sign, Some(x), wanted)?.1.zetas();
                 for (zeta, _) in zetas.iter_mut().zip(counts).filter(|(_, counts)| !counts) {
                     *zeta = f64::INFINITY;
                 }
                 Ok::<_, CheckError>(zetas)
             })?;
-            let at = |which: usize| places[which].map(|x| Checks::at(case, sign, Some(x), true)).transpose();
+            let at = |which: usize| places[which].map(|x| Checks::at(case, sign, Some(x))).transpose();
             let found = [at(0)?, at(1)?, at(2)?, at(3)?];
             let [sld, slv_q, slv, slc] = found.each_ref().map(|found| found.as_ref().map(|found| found.1));
             let checks = Checks {
@@ -312,7 +316,7 @@ fn by_rule(
             let (governs, _) = checks.governing(case.statement);
             let curve = match found.into_iter().nth(governs as usize).flatten() {
                 Some((curve, _)) => curve,
-                None => Checks::at(case, sign, Some(least_alpha0(case, sign)?), true)?.0,
+                None => Checks::at(case, sign, Some(least_alpha0(case, sign)?))?.0,
             };
             Ok((curve, checks))
         }

@@ -109,6 +109,13 @@ impl<'a> Case<'a> {
         varied
     }
 
+    /// The same wall without its ties.
+    pub(crate) fn untied(&self) -> Self {
+        let mut untied = self.clone();
+        untied.parameters.set_ties(&[]);
+        untied
+    }
+
     /// What is said of a side.
     pub(crate) fn told(&self, of: Side) -> Sentence {
         side(Sides::of(of, self.alike))

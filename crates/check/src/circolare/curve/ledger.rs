@@ -100,6 +100,7 @@ impl Curve {
                 ("g_0", 1e3 * tie.slack),
                 ("e_p", 1e3 * tie.ultimate.unwrap_or(-1e-3)),
                 ("y", tie.height),
+                ("φ", tie.lever),
             ]);
         }
         if let Some(at) = self.hinge {

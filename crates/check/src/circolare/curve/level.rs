@@ -125,13 +125,6 @@ fn set_loads(parameters: &mut Parameters, changed: impl Fn(&Load) -> Load) {
 /// # Errors
 /// [`CheckError`] with the load or the part, its value and the remedy.
 pub(crate) fn check_body(parameters: &Parameters) -> Result<(), CheckError> {
-    let has_tie = parameters.ties().any(|tie| tie.stiffness > 0.0);
-    if has_tie && parameters.mechanism == Mechanism::VerticalSpanning {
-        return Err(CheckError::wall(
-            "a check counts the ties of one body: those of a strip act on both, by levers that change with \
-             the hinge that is searched; leave [tie] out, check it as a parapet, or run it under records",
-        ));
-    }
     for (index, load) in loads(parameters).iter().enumerate() {
         if load.force > 0.0 && load.moving_mass.is_none() {
             return Err(CheckError::wall(format!(

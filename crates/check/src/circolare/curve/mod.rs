@@ -50,8 +50,6 @@ pub struct Curve {
     sign: f64,
     activation: Activation,
     confidence_factor: f64,
-    /// Whether the tie counts.
-    tied: bool,
     gravity: f64,
     /// `u_0`, where the force of the wall alone vanishes \[m\].
     pub zero: f64,
@@ -92,17 +90,11 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// Makes the curve of the side of `sign` with the hinge of a strip at `hinge` h; `tied` says whether the
-    /// tie counts.
+    /// Makes the curve of the side of `sign` with the hinge of a strip at `hinge` h.
     ///
     /// # Errors
     /// [`CheckError`] of a wall without strength, or of one whose force does not vanish.
-    pub(super) fn new(
-        case: &Case<'_>,
-        sign: f64,
-        hinge: Option<f64>,
-        tied: bool,
-    ) -> Result<Self, CheckError> {
+    pub(super) fn new(case: &Case<'_>, sign: f64, hinge: Option<f64>) -> Result<Self, CheckError> {
         let mut parameters = level::on_side(&case.parameters, sign);
         if let Some(hinge) = hinge {
             parameters.hinge_ratio = hinge;
@@ -137,7 +129,6 @@ impl Curve {
             sign,
             activation: case.activation,
             confidence_factor: case.statement.confidence_factor,
-            tied,
             gravity,
             zero,
             anchors: tie::anchors(&parameters, sign),
@@ -179,7 +170,7 @@ impl Curve {
 
     /// The ties that hold this side.
     pub fn ties(&self) -> impl Iterator<Item = &Tie> + Clone {
-        self.statics.ties().of_side(self.sign).filter(|_| self.tied)
+        self.statics.ties().of_side(self.sign)
     }
 
     /// The first tie that holds this side.

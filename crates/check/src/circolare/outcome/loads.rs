@@ -14,14 +14,18 @@ pub(super) fn warnings(case: &Case<'_>, has_runs: bool) -> Vec<Sentence> {
     let partly = loads.iter().enumerate().filter(|(_, load)| is_partly(load));
     let mut warnings: Vec<_> = partly
         .map(|(index, load)| {
-            say! {
-                "load {number} at {height} m: moving_mass = {share} is below 1; the printed text moves the \
-                 mass of all that rests on a body (C8.7.1.2.1.1)",
-                "carico {number} a {height} m: moving_mass = {share} è minore di 1; il testo della norma \
-                 muove la massa di tutto ciò che poggia su un corpo (C8.7.1.2.1.1)",
-                number = (index + 1).to_string(), height = at_most(load.height, 6),
-                share = at_most(load.moving_mass.unwrap_or(0.0), 6)
-            }
+            let [height, share] = [load.height, load.moving_mass.unwrap_or(0.0)].map(|it| at_most(it, 6));
+            let said = |name: Sentence| {
+                say! {
+                    "load {number} at {height} m: {name} = {share} is below 1; the printed text moves the \
+                     mass of all that rests on a body (C8.7.1.2.1.1)",
+                    "carico {number} a {height} m: {name} = {share} è minore di 1; il testo della norma \
+                     muove la massa di tutto ciò che poggia su un corpo (C8.7.1.2.1.1)",
+                    number = (index + 1).to_string(), height, name, share
+                }
+            };
+            let share_of_mass = say!("share of its mass that moves", "quota della massa in moto");
+            said(Sentence::same("moving_mass")).on_page(said(share_of_mass))
         })
         .collect();
     for sign in case.sides() {
@@ -35,7 +39,12 @@ pub(super) fn warnings(case: &Case<'_>, has_runs: bool) -> Vec<Sentence> {
              = true of those that certainly last until collapse (C8.7.1.2.1.6)",
             "{side}: spinte favorevoli con momento {moment} kN m non considerate; dichiarare thrust_lasts = \
              true per quelle che certamente permangono fino al collasso (C8.7.1.2.1.6)", side, moment
-        });
+        }.on_page(say! {
+            "{side}: thrusts with a moment of {moment} kN m would help and are left out: that they last \
+             until collapse is not stated (C8.7.1.2.1.6)",
+            "{side}: spinte favorevoli con momento {moment} kN m non considerate: non è dichiarato che \
+             permangono fino al collasso (C8.7.1.2.1.6)", side, moment
+        }));
         if has_runs {
             warnings.push(say! {
                 "{side}: the runs under records count these thrusts on both sides",

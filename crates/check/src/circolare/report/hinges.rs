@@ -20,7 +20,7 @@ fn rules(case: &Checked<'_>, one: &SideLedger<'_>, language: Language) -> String
     let side = one.verdict;
     let (Some(rule), Some(found)) = (case.rule, side.least_alpha0) else { return String::new() };
     let row = |own: Hinge, words: Sentence, at: Option<f64>, zeta: Option<f64>| {
-        let name = format!("{} <small translate=\"no\">{}</small>", words.markup(language), own.name());
+        let name = words.markup(language);
         let taken = crate::words::said(rule == own).markup(language);
         [name, language.or_dash(at), language.or_dash(zeta), taken]
     };

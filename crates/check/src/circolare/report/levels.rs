@@ -1,5 +1,6 @@
 //! The bodies above the levels at which a façade may open: what is said of each, and of all.
 
+use run::drawing::View;
 use serde_json::{Map, Value, json};
 
 use crate::circolare::checks::sides::SideVerdict;
@@ -61,14 +62,21 @@ impl Checked<'_> {
         warnings
     }
 
-    /// The bodies above all levels to scale, beside each other.
+    /// The bodies above all levels to scale, beside each other, and the front of the lowest.
     pub(super) fn drawn(&self, language: Language) -> String {
+        let (levels, lowest) = (self.levels(), self.lowest());
+        let view = if levels.len() > 1 { View::Section } else { View::Whole };
         let figure = |level: &Self| {
             let head = level.stated_level().map(|z| say!("Body above {z} m", "Corpo sopra {z} m", z));
             let head = head.map_or_else(String::new, |head| format!("<h3>{}</h3>\n", head.markup(language)));
-            format!("<div>{head}{}</div>\n", drawing::figure(&level.wall, &level.parameters, language))
+            let above = level.stated_level().filter(|_| level.level != lowest.level);
+            let figure = drawing::figure(&level.wall, &level.parameters, view, above, language);
+            format!("<div>{head}{figure}</div>\n")
         };
-        let figures: String = self.levels().into_iter().map(figure).collect();
+        let mut figures: String = levels.iter().map(|level| figure(level)).collect();
+        if levels.len() > 1 && !lowest.wall.body().is_rectangle {
+            figures += &drawing::figure(&lowest.wall, &lowest.parameters, View::Front, None, language);
+        }
         format!("<div class=\"bodies\">\n{figures}</div>\n")
     }
 

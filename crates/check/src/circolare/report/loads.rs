@@ -1,7 +1,7 @@
 //! The loads of the wall, and its materials with the level of knowledge.
 
 use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::{Load, Opening, Parameters, Part, TieNumbers};
+use rocking_wall::wall::{Load, Opening, Parameters, Part, Profile, TieNumbers};
 
 use crate::circolare::curve::level;
 use crate::circolare::outcome::Checked;
@@ -21,7 +21,11 @@ pub(super) fn loads(case: &Checked<'_>, language: Language) -> String {
     let mut rows = Vec::new();
     if let Some(profile) = &parameters.profile {
         rows.extend(profile.parts().iter().map(|part| of_part(part, gravity, language)));
-        rows.extend(profile.openings().iter().map(|opening| of_opening(opening, language)));
+        let openings = profile.openings().iter();
+        rows.extend(openings.map(|opening| of_opening(opening, profile, gravity, language)));
+        let words = say!("Own weight `W`", "Peso proprio `W`");
+        let how = say!("parts without openings", "porzioni al netto delle aperture").markup(language);
+        rows.push(row(&words, how, 1e-3 * gravity * mass(profile), "kN", language));
     } else if mechanism == Mechanism::RigidBody {
         let mass = parameters.body_mass;
         let how =
@@ -56,7 +60,8 @@ pub(super) fn loads(case: &Checked<'_>, language: Language) -> String {
 }
 
 fn row(words: &Sentence, how: String, value: f64, unit: &str, language: Language) -> Row {
-    [words.markup(language), how, format!("<span class=\"value\">{} {unit}</span>", language.shown(value))]
+    let value = language.shown(value).replace('-', "−");
+    [words.markup(language), how, format!("<span class=\"value\">{value} {unit}</span>")]
 }
 
 fn written(value: f64) -> Written {
@@ -89,13 +94,21 @@ fn between([lower, upper]: [f64; 2]) -> Sentence {
     say!("{lower} to {upper}", "da {lower} a {upper}", lower = written(lower), upper = written(upper))
 }
 
-fn of_opening(opening: &Opening, language: Language) -> Row {
+/// The mass of the masonry \[kg\].
+fn mass(profile: &Profile) -> f64 {
+    profile.centroid([0.0, profile.height()]).mass
+}
+
+fn of_opening(opening: &Opening, profile: &Profile, gravity: f64, language: Language) -> Row {
     let words = say! {
         "Opening from {from} to {to} m", "Apertura da {from} a {to} m",
         from = written(opening.base), to = written(opening.base + opening.height)
     };
-    let how = say!("taken out of its part", "detratta dalla porzione").markup(language);
-    row(&words, how, opening.width, "m", language)
+    let how = say!("width {width} m", "larghezza {width} m", width = written(opening.width));
+    let parts = || profile.parts().to_vec();
+    let with = |openings| Profile::new(parts(), openings, Vec::new()).map_or(f64::NAN, |own| mass(&own));
+    let taken = with(vec![*opening]) - with(Vec::new());
+    row(&words, how.markup(language), 1e-3 * gravity * taken, "kN", language)
 }
 
 fn of_load(load: &Load, language: Language) -> Row {
@@ -123,10 +136,18 @@ pub(super) fn materials(case: &Checked<'_>, language: Language) -> String {
     let (table_of_check, parameters) = (&case.statement.table, &case.parameters);
     let stated = || say!("stated", "dichiarato").markup(language);
     let mut rows = Vec::new();
-    if parameters.mechanism != Mechanism::RigidBody {
+    let mut densities = match &case.lowest().parameters.profile {
+        Some(profile) => profile.parts().iter().map(|part| part.density).collect(),
+        None if parameters.mechanism == Mechanism::RigidBody => Vec::new(),
+        None => vec![parameters.density],
+    };
+    densities.sort_by(f64::total_cmp);
+    densities.dedup();
+    for density in densities {
         let words = say!("Specific weight of the masonry", "Peso specifico della muratura");
-        let weight = 1e-3 * parameters.density * parameters.gravity;
-        rows.push(row(&words, formula("ρ g"), weight, "kN/m³", language));
+        let [rho, g] = [density, parameters.gravity].map(|value| language.stated(value));
+        let how = format!("{} = {rho} · {g} · 10⁻³", formula("ρ g"));
+        rows.push(row(&words, how, 1e-3 * density * parameters.gravity, "kN/m³", language));
     }
     if let Some(strength) = table_of_check.masonry_strength {
         let words = say!("Compressive strength f_m", "Resistenza a compressione f_m");

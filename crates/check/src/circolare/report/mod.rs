@@ -84,7 +84,7 @@ const DYNAMIC: [&str; 3] = ["damping", "impact", "solver"];
 
 /// The sections of a wall.
 pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<Section>, CheckError> {
-    let language = origin.report.language;
+    let (language, lowest) = (origin.report.language, case.lowest());
     let is_dynamic = case.outcome.dynamic.is_some();
     let is_law = case.statement.table.before_activation == Some(Activation::Law);
     let is_used = |group: &str, name: &str| {
@@ -116,7 +116,7 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<Se
         ),
         Section::new(
             say!("The wall", "La parete"),
-            case.drawn(language) + &of_wall(&case.wall, &case.parameters, origin, &is_used),
+            case.drawn(language) + &of_wall(&lowest.wall, &lowest.parameters, origin, &is_used),
         ),
         Section::new(say!("Demand at the wall", "Domanda alla parete"), site::at_wall(case, language)?),
     ];
@@ -151,7 +151,7 @@ pub(super) fn sections(case: &Checked<'_>, origin: &Origin<'_>) -> Result<Vec<Se
     }
     let heading = say!("Runs under records C8.7.1.2.1.9", "Analisi con accelerogrammi C8.7.1.2.1.9");
     add(heading, runs::section(case, language));
-    let all = [inputs::keys(case, origin), keys(&case.wall, &case.parameters, origin, &is_used)].concat();
+    let all = [inputs::keys(case, origin), keys(&lowest.wall, &lowest.parameters, origin, &is_used)].concat();
     let parts =
         [say!("datum", "dato"), say!("key in the file", "chiave nel file"), say!("from", "provenienza")];
     let heading = say!("Origin of the data", "Provenienza dei dati");

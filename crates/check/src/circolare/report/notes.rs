@@ -44,7 +44,12 @@ impl Checked<'_> {
             },
         ];
         notes.extend(self.statement.site_notes.iter().cloned());
-        notes.extend(self.levels().into_iter().flat_map(Self::notes_of_level));
+        for note in self.levels().into_iter().flat_map(Self::notes_of_level) {
+            // what is of all levels alike once
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
         notes
     }
 

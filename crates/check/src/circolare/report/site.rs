@@ -15,7 +15,7 @@ use crate::words::formulas::formula;
 use crate::words::markup::{aligned, list, paragraph, table};
 use crate::words::names::LimitState;
 use crate::words::others::storeys;
-use crate::words::{Language, Sentence, Written, joined, say, shown};
+use crate::words::{Language, Sentence, Written, above, joined, say, shown};
 
 /// A symbol with its source, its unit, and its number on the ground.
 type OfGround = (&'static str, &'static str, &'static str, fn(&GroundSpectrum) -> f64);
@@ -89,8 +89,22 @@ pub(in crate::circolare) fn section(
     Ok(vec![Section::new(say!("Site hazard", "Pericolosità sismica del sito"), markup)])
 }
 
-/// What acts at the place of the wall: its numbers, and its spectra.
+/// What acts at the place of the wall: its numbers, of several bodies at the level of each, and the spectra
+/// of the level that governs.
 pub(super) fn at_wall(case: &Checked<'_>, language: Language) -> Result<String, CheckError> {
+    let levels = case.levels();
+    let at = |level: &&Checked<'_>| {
+        let head = level.stated_level().filter(|_| levels.len() > 1);
+        let head = head.map(|z| say!("Body above {z} m", "Corpo sopra {z} m", z).markup(language));
+        let head = head.map_or_else(String::new, |head| format!("<h3>{head}</h3>\n"));
+        head + &at_level(level, language)
+    };
+    let tables: String = levels.iter().map(at).collect();
+    Ok(tables + &spectra_at_wall(case, language)?)
+}
+
+/// What acts at the level of a body.
+fn at_level(case: &Checked<'_>, language: Language) -> String {
     let mut rows = Rows::new(case, language);
     let some = |value: Option<f64>| language.or_dash(value);
     rows.row(["ξ", "C8.7.1.2.1.5, .8", ""], |(given, _)| language.shown(given.damping));
@@ -115,7 +129,7 @@ pub(super) fn at_wall(case: &Checked<'_>, language: Language) -> Result<String, 
         some(demand.floor().map(|floor| floor.amplification(given.damping)))
     });
     let place = place(case).map_or_else(String::new, |place| paragraph(&place, language));
-    Ok(place + &rows.table() + &spectra_at_wall(case, language)?)
+    place + &rows.table()
 }
 
 /// Soil and topography.
@@ -231,11 +245,12 @@ fn spectra_at_wall(case: &Checked<'_>, language: Language) -> Result<String, Che
     let at_height = drawn.iter().any(|drawn| matches!(drawn.demand, Demand::Floor(_)));
     let (symbol, source) = if at_height { ("S_eZ", "[C7.2.5]") } else { ("S_e", "[3.2.2]") };
     let source = if is_of_code { Sentence::same(source) } else { say!("as given", "come fornito") };
+    let place = above(say!("At the wall", "Alla parete"), case.stated_level());
     let caption = say! {
-        "At the wall: `{symbol}(T, ξ)` {source} at the damping of the mechanism; ▲ `T0`, T_SLV, T_SLC of the \
+        "{place}: `{symbol}(T, ξ)` {source} at the damping of the mechanism; ▲ `T0`, T_SLV, T_SLC of the \
          governing side.",
-        "Alla parete: `{symbol}(T, ξ)` {source} con lo smorzamento del meccanismo; ▲ `T0`, T_SLV, T_SLC del \
-         verso determinante.", symbol, source
+        "{place}: `{symbol}(T, ξ)` {source} con lo smorzamento del meccanismo; ▲ `T0`, T_SLV, T_SLC del \
+         verso determinante.", place, symbol, source
     };
     let plot = spectra(&drawn, &format!("{symbol} (m/s²)"), last_period(case), language)?;
     Ok(Figure { caption: caption.markup(language), plot }.html(language))

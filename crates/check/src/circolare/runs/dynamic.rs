@@ -136,7 +136,7 @@ fn divided(
     if case.statement.masonry.is_some() {
         let a3 = |sign: f64| {
             let rocks = case.sides().any(|own| own == sign);
-            if rocks { Curve::new(case, sign, hinge, true).map(|curve| curve.a3) } else { Ok(1.0) }
+            if rocks { Curve::new(case, sign, hinge).map(|curve| curve.a3) } else { Ok(1.0) }
         };
         parameters.a3_of_sides = Some(Sides { positive: a3(1.0)?, negative: a3(-1.0)? });
     }

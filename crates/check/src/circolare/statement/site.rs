@@ -90,7 +90,8 @@ pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
     }
     let [latitude, longitude] = site.coordinates;
     let named = |file: &PathBuf| file.file_name().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
-    let source = file.as_ref().map_or_else(|| "[check.site]".to_owned(), named);
+    let of_file = |file| say!(" of {file}", " di {file}", file = named(file));
+    let source = file.as_ref().map_or_else(|| say!(" in the file", " allegato ai dati"), of_file);
     let how = if hazard.is_node() {
         say! {
             "the numbers of the node that it is",
@@ -103,9 +104,9 @@ pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
         }
     };
     notes.push(say! {
-        "Site at latitude {latitude}°, longitude {longitude}° on the grid of {source}: {how}, straight over \
+        "Site at latitude {latitude}°, longitude {longitude}° on the grid{source}: {how}, straight over \
          log T_R (NTC 2008, Annex A).",
-        "Sito a latitudine {latitude}°, longitudine {longitude}° sul reticolo di {source}: {how} in log T_R \
+        "Sito a latitudine {latitude}°, longitudine {longitude}° sul reticolo{source}: {how} in log T_R \
          (NTC 2008, Allegato A).", latitude, longitude, source, how
     });
     let of_grid = |usual: Usual, years: f64| usual.warning(hazard.hazard(years).ag);

@@ -86,7 +86,7 @@ fn grids_that_cannot_be_are_refused_with_their_line() {
         (text.replace("lat", "phi"), 1, "no column \"lat\""),
         (text.replace("_475", "_475y"), 1, "column ag_475y: \"475y\" is no return period in years"),
         (text.replace("F0_475", "F0"), 1, "no column \"f0_475\""),
-        (text.replace("ag_475", "peak"), 1, "two return periods T or more"),
+        (text.replace("ag_475", "peak"), 1, "for two return periods in years or more"),
         (text.replace("_475", "_030"), 1, "columns ag_30 and ag_030 have the same return period"),
         (text.replace("1.9,2.5", "0.9,0"), 2, "must be above 0"),
         (text.replace("1.9", "x"), 2, "a finite number"),
@@ -101,6 +101,7 @@ fn grids_that_cannot_be_are_refused_with_their_line() {
     let ministry = heads.to_owned() + &text.lines().nth(1).unwrap().replace(',', ";").replace('.', ",");
     assert_eq!(Grid::read(&ministry, 0.1), Ok(grid.clone()));
     assert_eq!(Grid::read(&text.replace("F0", "Fo").replace("TC", "Tc*"), 0.1), Ok(grid.clone()));
+    assert_eq!(Grid::read(&text.replace("F0", "Fo").replace('_', ""), 0.1), Ok(grid.clone()));
     let (line, told) = Grid::read(&ministry.replace("2,4", "x"), 0.1).unwrap_err();
     assert!(line == 3 && told.contains("found `x`"), "{line} {told}");
     // periods are found as they are written

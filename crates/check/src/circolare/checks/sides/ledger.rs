@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::Tie;
+use rocking_wall::wall::{Body, Tie};
 use serde_json::{Value, json};
 
 use super::{LeastAlpha0, SideVerdict};
@@ -118,11 +118,11 @@ impl SideVerdict {
         let (at, curve) = (self.activation, &self.curve);
         let slope: f64 = curve.ties().map(Tie::slope).sum();
         let stiffness = curve.of_force(slope) / curve.d_per_u;
-        let Names { pushed, lever, .. } = curve.names();
+        let Names { pushed, lever, slope: of_stiffness, .. } = curve.names();
         let sum = if curve.has_several_ties() { "Σ " } else { "" };
         let pulls = curve.ties().map(|tie| tie.pull * tie.strength.unwrap_or(0.0));
         ledger.know(&[(&format!("Σ ({lever}) N_y"), 1e-3 * pulls.sum::<f64>())]);
-        let tied = &*format!("{sum}({lever})² K g/({pushed} e* d/u)");
+        let tied = &*format!("{sum}{of_stiffness} K g/({pushed} e* d/u)");
         ledger.begin("activation", "tie");
         let words = say! {
             "Multiplier of activation with the tie at its strength, without FC",
@@ -189,6 +189,7 @@ impl TieNumbers {
         let mm = Unit::MILLIMETRES;
         let Names { per_elongation, .. } = side.curve.names();
         ledger.begin("tie", "tie");
+        side.curve.tie().iter().for_each(|tie| add_lever(side.curve.body(), tie, ledger));
         let words = say!("The tie begins to pull at", "La catena inizia a tirare a");
         let engaged =
             Quantity::new("u_engaged", format!("u_g = g_0 {per_elongation}"), mm, self.engaged, words);
@@ -234,6 +235,7 @@ impl TieVerdict {
             "Tie {number} at {height} m: strength", "Catena {number} a {height} m: resistenza", number, height
         };
         ledger.add(Quantity::new("", "N_y", Unit::KILONEWTONS, strength, words));
+        add_lever(side.curve.body(), &self.tie, ledger);
         let words = say!("Tie {number} begins to pull at", "La catena {number} inizia a tirare a", number);
         let engaged = Quantity::new("", format!("u_g = g_0 {per_elongation}"), mm, numbers.engaged, words);
         ledger.add(if numbers.engaged > 0.0 { engaged } else { engaged.unlisted() });
@@ -281,11 +283,21 @@ impl TieVerdict {
     }
 }
 
+/// Adds φ of a tie of a strip, by which it is stretched and pulls.
+fn add_lever(body: &Body, tie: &Tie, ledger: &mut Ledger) {
+    if body.is_strip() {
+        let equation = if tie.height <= body.hinge_height { "φ = y/h_1" } else { "φ = (h − y)/h_2" };
+        let words = say!("Displacement of the tie over u", "Spostamento della catena su u");
+        ledger.add(Quantity::new("", equation, Unit::NONE, tie.lever, words));
+    }
+}
+
 /// Adds what the curve loses where the tie breaks.
 fn add_rupture(side: &SideVerdict, of: OfSide<'_>, broken: &TieBreak, ledger: &mut Ledger) {
     let TieBreak { before, after, largest, loss, .. } = *broken;
     let sign = if after < 0.0 { "+" } else { "−" };
     let put = format!("({} {sign} {})/{}", shown(before), shown(after.abs()), shown(largest));
+    let put = put.replace('-', "−");
     let words = say! {
         "What the curve, with FC, loses there for good, over its largest a",
         "Riduzione della capacità alla rottura della catena, rapportata ad a_max"

@@ -22,12 +22,14 @@ struct Term {
     thrust: f64,
 }
 
-/// How formulas name the inertial force for α = 1 and the lever of a tie.
+/// How formulas name the inertial force for α = 1, dF/dN of a tie, u over its elongation and its slope over
+/// K.
 #[derive(Clone, Copy)]
 pub(in crate::circolare) struct Names {
     pub(in crate::circolare) pushed: &'static str,
     pub(in crate::circolare) lever: &'static str,
     pub(in crate::circolare) per_elongation: &'static str,
+    pub(in crate::circolare) slope: &'static str,
 }
 
 impl Curve {
@@ -38,10 +40,13 @@ impl Curve {
 
     /// The names of its terms in formulas.
     pub(in crate::circolare) fn names(&self) -> Names {
-        if self.is_plain() {
-            return Names { pushed: "(W + 2 r O)", lever: "2 y/h", per_elongation: "h/(2 y)" };
-        }
-        Names { pushed: "F_E", lever: "y/z_G", per_elongation: "z_G/y" }
+        let [lever, per_elongation, slope] = match (self.body().is_strip(), self.is_plain()) {
+            (true, _) => ["2 φ", "1/φ", "2 φ²"],
+            (false, true) => ["2 y/h", "h/(2 y)", "(2 y/h)²"],
+            (false, false) => ["y/z_G", "z_G/y", "(y/z_G)²"],
+        };
+        let pushed = if self.is_plain() { "(W + 2 r O)" } else { "F_E" };
+        Names { pushed, lever, per_elongation, slope }
     }
 
     /// Adds the sums of a body and its numbers, from the weights to d/u.
@@ -88,8 +93,8 @@ impl Curve {
                 each,
                 "e*_w",
                 say! {
-                    "The same with a resultant of each weight: every ζ_E is then e*/e*_w times as large",
-                    "Lo stesso con una risultante per ogni peso: ogni ζ_E va moltiplicato per e*/e*_w"
+                    "The same with a resultant of each weight: every ζ_E is then `e*/e*_w` times as large",
+                    "Lo stesso con una risultante per ogni peso: ogni ζ_E va moltiplicato per `e*/e*_w`"
                 },
             ),
             Resultants::Each => (
@@ -97,8 +102,8 @@ impl Curve {
                 one,
                 "e*_1",
                 say! {
-                    "The same with one resultant on each body: every ζ_E is then e*/e*_1 times as large",
-                    "Lo stesso con una risultante per ogni corpo: ogni ζ_E va moltiplicato per e*/e*_1"
+                    "The same with one resultant on each body: every ζ_E is then `e*/e*_1` times as large",
+                    "Lo stesso con una risultante per ogni corpo: ogni ζ_E va moltiplicato per `e*/e*_1`"
                 },
             ),
         };
