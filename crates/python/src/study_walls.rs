@@ -6,7 +6,7 @@ use pyo3::types::PyDict;
 use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, parameter_text};
 use rocking_wall::wall::Parameters;
 use run::wall_parameters::{check_parameter, wall_parameters};
-use run::walls::{NamedWall, assumed};
+use run::walls::{NamedWall, assumed, with_curve};
 
 use crate::errors::refused;
 use crate::walls::{Wall, set_all};
@@ -26,10 +26,9 @@ pub(crate) fn named_walls(
                 unused.push((name, names));
             }
             let (parameters, floors) = (wall.scene.parameters.clone(), wall.scene.floors.clone());
-            let assumed = wall.assumed.clone();
-            let is_oscillator = wall.scene.curve.as_ref().is_some_and(|curve| curve.is_of_oscillator);
-            let wall = NamedWall::new(name.clone(), parameters);
-            walls.push(NamedWall { floors, is_oscillator, assumed, ..wall });
+            let (assumed, curve) = (wall.assumed.clone(), wall.scene.curve.clone());
+            let wall = NamedWall { floors, assumed, ..NamedWall::new(name.clone(), parameters) };
+            walls.push(with_curve(wall, curve, &mut Vec::new(), warnings));
         } else {
             walls.push(of_parameters(name, wall.cast::<PyDict>()?)?);
         }

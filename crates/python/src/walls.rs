@@ -211,7 +211,8 @@ impl Wall {
         let method = Method::new(&scene.parameters, equation, scene.parameters.tolerance).map_err(refused)?;
         let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(equation));
         let warnings = warnings_of(equation, scene.curve.as_ref()).map(ToString::to_string);
-        let warnings = warnings.chain(of_floors).collect();
+        let of_curve = scene.curve.iter().flat_map(|curve| curve.doubts.iter().cloned());
+        let warnings = warnings.chain(of_floors).chain(of_curve).collect();
         let corners = equation.capacity_corners(1.0);
         let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
         let curve = with_curve(plot(&[("u > 0", points)], Vec::new()), scene.curve.as_ref()).picture();
@@ -245,7 +246,8 @@ impl Wall {
         let response = py.detach(|| Response::of(&scene)).map_err(of_scene)?;
         let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
         let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
-        let more = of_floors.chain(of_motion.map(|warning| warning.to_string()));
+        let of_curve = scene.curve.iter().flat_map(|curve| curve.doubts.iter().cloned());
+        let more = of_floors.chain(of_motion.map(|warning| warning.to_string())).chain(of_curve);
         responses::values(py, &response, more)
     }
 

@@ -307,7 +307,7 @@ pub fn walls(
 }
 
 /// Tells what the capacity curve of a wall says of it. Adds its file, and what is improbable.
-fn with_curve(
+pub fn with_curve(
     wall: NamedWall,
     curve: Option<Curve>,
     inputs: &mut Vec<PathBuf>,

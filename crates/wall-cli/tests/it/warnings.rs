@@ -22,6 +22,34 @@ fn improbable_walls_are_warned_of() {
     assert_eq!(warned(&["simulate", "--stop-time", "0.1"]), "");
 }
 
+/// A check of a wall whose force law is a curve in another unit says so. A warning of another kind is not
+/// lost among ten of one.
+#[test]
+fn doubts_of_curves_are_told_in_checks_and_tables() {
+    let folder = folder("doubtful_curves");
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    let wall = "[geometry]\nheight = 4\nthickness = 0.4\ndensity = 1800\n\
+                [force_law]\ncurve = [[0.02, 1e6], [0.2, 0.0]]\n";
+    let check = "[check]\ncode = \"fractions\"\nspectrum = [[0, 1], [4, 1]]\nunit = \"m/s2\"\n";
+    write("check.toml", &format!("{wall}{check}"));
+    write("wall.toml", wall);
+    let doubt = "the largest F is 353.947 F0 of the geometry, not 0.1 to 3: check the unit";
+    assert_has(&text(&succeed(&folder, &["check", "check.toml"]).stderr), &[doubt]);
+    let rows: Vec<_> = (0..10).map(|k| format!("{k},wall.toml,\n")).collect();
+    write("walls.csv", &format!("name,scene,height\n{}thick,wall.toml,5\n", rows.concat()));
+    write(
+        "study.toml",
+        "models = [\"CR\"]\nlevels = { method = \"grid\", values = [0.1] }\n\
+         records = { synthetic = { count = 1 } }\nwalls = [{ table = \"walls.csv\" }]\n",
+    );
+    let told = text(&succeed(&folder, &["study", "ida", "study.toml", "-o", "out"]).stderr);
+    assert_eq!(told.matches(doubt).count(), 7, "{told}");
+    assert_has(
+        &told,
+        &["wall \"thick\": the curve is scaled with F0 and u_ins", "3 more messages like these"],
+    );
+}
+
 /// 3000 m/s² are 305.9 g.
 #[test]
 fn motions_stronger_than_any_record_are_warned_of() {
