@@ -59,7 +59,7 @@ pub fn check_value<T: Described>(key: &str, value: impl std::fmt::Debug) -> Resu
         return Err(unknown_key(key, "", &known, &tables.groups));
     }
     // TOML writes NaN in small letters
-    let text = format!("{key} = {}", format!("{value:?}").to_lowercase());
+    let text = format!("{key} = {}", format!("{value:?}").to_ascii_lowercase());
     let table = parse_document(&Place::new(key, &text)).map_err(|error| error.reason)?;
     let table = Spanned::new(0..text.len(), DeValue::Table(table));
     fault::<T>(&table).map_or(Ok(()), |fault| Err(fault.message))
@@ -73,12 +73,16 @@ pub(crate) fn fault<T: Described>(table: &Spanned<DeValue<'_>>) -> Option<Fault>
 
 /// Returns the schema of `T` and the tables that it refers to, which are made once: many walls are read.
 pub(crate) fn schema_of<T: Described>() -> &'static (Value, Tables) {
+    made(TypeId::of::<T>(), T::describe)
+}
+
+fn made(of: TypeId, describe: fn(&str, &mut Tables) -> Schema) -> &'static (Value, Tables) {
     static MADE: Mutex<Option<HashMap<TypeId, &'static (Value, Tables)>>> = Mutex::new(None);
     // a schema that could not be made is not in the map
     let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
-    made.get_or_insert_default().entry(TypeId::of::<T>()).or_insert_with(|| {
+    made.get_or_insert_default().entry(of).or_insert_with(|| {
         let mut tables = Tables::default();
-        let schema = T::describe("", &mut tables).into();
+        let schema = describe("", &mut tables).into();
         Box::leak(Box::new((schema, tables)))
     })
 }

@@ -36,8 +36,8 @@ fn nearest<'a>(mistyped: &str, names: impl IntoIterator<Item = &'a str>) -> Opti
     let length = mistyped.chars().take(LONGEST + 1).count();
     let names = names.into_iter().filter(|_| length <= LONGEST);
     // Height is a slip for height, not another name
-    let lower = mistyped.to_lowercase();
-    let distances = names.map(|name| (osa_distance(&lower, &name.to_lowercase()), name));
+    let lower = mistyped.to_ascii_lowercase();
+    let distances = names.map(|name| (osa_distance(&lower, &name.to_ascii_lowercase()), name));
     distances.filter(|(changes, _)| *changes <= (length / 3).max(1)).min().map(|(_, name)| name)
 }
 

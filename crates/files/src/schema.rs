@@ -88,8 +88,8 @@ macro_rules! tables {
                     describe: <$type as $crate::Described>::describe,
                     words: || vec![$($((stringify!($word), $value.into())),+)?],
                 }),+];
-                let about = concat!($($about),+);
-                $crate::describe_table::<Self>(stringify!($table), about, fields, tables)
+                let (keys, about) = ($crate::names::<Self>(), concat!($($about),+));
+                $crate::describe_table(stringify!($table), about, keys, fields, tables)
             }
         }
     )+};
@@ -107,14 +107,14 @@ pub struct Field {
 
 /// Adds a table to `tables`, and refers to it.
 #[doc(hidden)]
-pub fn describe_table<T: DeserializeOwned>(
+pub fn describe_table(
     name: &str,
     about: &str,
+    keys: &[&str],
     fields: &[Field],
     tables: &mut Tables,
 ) -> Schema {
     if !tables.schemas.contains_key(name) {
-        let keys = names::<T>();
         let mut properties = Schema::new();
         for (key, field) in keys.iter().zip(fields) {
             let mut property = with((field.describe)(key, tables), "description", plain(field.text));

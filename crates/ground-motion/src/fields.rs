@@ -88,7 +88,7 @@ pub(crate) fn unit_word(line: &str) -> Option<String> {
     const FILLERS: [&str; 5] = ["of", "are", "is", "in", ""];
     let is_edge =
         |c: char| c.is_whitespace() || matches!(c, '(' | ')' | '[' | ']' | ',' | '.' | ';' | ':' | '=');
-    let is_filler = |word: &&str| FILLERS.contains(&&*word.trim_matches(is_edge).to_lowercase());
+    let is_filler = |word: &&str| FILLERS.contains(&&*word.trim_matches(is_edge).to_ascii_lowercase());
     let stated = after(line, "UNIT")?.trim_start_matches(['S', 's']);
     if stated.starts_with(char::is_alphanumeric) {
         return None;

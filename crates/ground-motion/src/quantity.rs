@@ -76,7 +76,7 @@ pub enum Measured {
 impl Measured {
     /// Finds the quantity of a unit; `None` for others.
     pub(crate) fn of(unit: &str) -> Option<Self> {
-        let word = unit.trim().to_lowercase();
+        let word = unit.trim().to_ascii_lowercase();
         // mN is no MN
         let force = size_of(&word, &FORCES).filter(|_| unit.trim() != "mN");
         match Quantity::of(unit) {
@@ -103,7 +103,7 @@ impl Quantity {
         if text.len() > LONGEST {
             return None;
         }
-        if let Some(seconds) = size_of(text.trim_matches(['.', ' ']).to_lowercase().as_str(), &TIMES) {
+        if let Some(seconds) = size_of(text.trim_matches(['.', ' ']).to_ascii_lowercase().as_str(), &TIMES) {
             return Some(Self::Time(seconds));
         }
         let plain = plain(text);
@@ -186,7 +186,7 @@ fn is_other_unit(word: &str) -> bool {
 
 /// Writes a unit in small letters and without blanks, brackets, and marks of powers and products.
 fn plain(text: &str) -> String {
-    let text = text.to_lowercase().replace("percent", "%").replace("per", "/").replace("squared", "2");
+    let text = text.to_ascii_lowercase().replace("percent", "%").replace("per", "/").replace("squared", "2");
     let text = text.replace("second", "s").replace("sec", "s").replace("metre", "meter");
     let text = text.replace("centimeter", "cm").replace("millimeter", "mm").replace("meter", "m");
     let text = text.replace('²', "2").replace(['−', '–', '⁻'], "-");

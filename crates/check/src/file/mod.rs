@@ -24,6 +24,8 @@ use site::{RecordReader, Records, read_records};
 /// What a file with a table `[check]` has beside its wall or walls.
 const KEYS: &[&str] = &["title", "check", "report"];
 
+/// Whether a table may name files. A page in a browser has none, and leaves their readers out.
+pub(crate) const HAS_FILES: bool = cfg!(not(target_arch = "wasm32"));
 /// Largest grid of the hazard that is read.
 const MAX_GRID_BYTES: u64 = 64 << 20;
 

@@ -26,8 +26,8 @@ use crate::code::row::{Ends, Row};
 use crate::code::verdict::{Details, Verdict};
 use crate::code::{Code, InStudies, Subject};
 use crate::error::CheckError;
-use crate::file::CheckFile;
 use crate::file::site::{Records, check_points};
+use crate::file::{CheckFile, HAS_FILES};
 use crate::sections::origin::Figure;
 use crate::words::entry::Entry;
 use crate::words::ledger::Ledger;
@@ -146,6 +146,10 @@ impl Statement {
                     .map_err(|message| CheckError::value(&["spectrum"], message))?;
                 let in_si = points.into_iter().map(|(period, sa)| (period, unit.to_si(sa)));
                 statement.spectrum = Some(Demand::of_points(in_si.collect(), place)?);
+            }
+            (Some(SpectrumTable::File(_)), None) if !HAS_FILES => {
+                let message = "a page reads no file of a spectrum; give points [T, Sa]";
+                return Err(CheckError::value(&["spectrum"], message));
             }
             (Some(SpectrumTable::File(name)), None) => {
                 statement.read_spectrum(file.folder().join(name), &table)?;

@@ -66,7 +66,7 @@ impl Name {
     pub(crate) fn words(&self) -> Vec<String> {
         let words = self.text.split(|c: char| !c.is_alphanumeric());
         let words = words.filter(|word| (1..=LONGEST).contains(&word.len()));
-        words.take(LONGEST).map(str::to_lowercase).collect()
+        words.take(LONGEST).map(str::to_ascii_lowercase).collect()
     }
 
     /// Returns the unit that its brackets state, or its last word behind others, with its quantity.
@@ -86,7 +86,7 @@ impl Name {
             "sv" | "psv" | "vg" => Some(Quantity::Velocity),
             "sd" | "dg" => Some(Quantity::Displacement),
             word if starts(word, &["vel", "gesch", "vites"]) => Some(Quantity::Velocity),
-            word if starts(word, &["dis", "spost", "dépl", "depl", "versch", "despl"]) => {
+            word if starts(word, &["dis", "spost", "dépl", "dÉpl", "depl", "versch", "despl"]) => {
                 Some(Quantity::Displacement)
             }
             _ => None,
@@ -165,7 +165,7 @@ pub(crate) fn unit_of_title(line: &str, may_be_in_brackets: bool) -> Option<Stri
     let in_brackets = name.unit().filter(|_| may_be_in_brackets && line.matches(['[', '(']).count() == 1);
     let stated = [unit_word(line), in_brackets.map(str::to_owned)].into_iter().flatten().find(is_meant);
     stated.or_else(|| {
-        let line = line.to_lowercase();
+        let line = line.to_ascii_lowercase();
         let after_in = line.match_indices(" in ").map(|(at, word)| line[at + word.len()..].trim());
         let mut units =
             after_in.flat_map(|rest| [rest, rest.split([' ', ',', ';']).next().unwrap_or_default()]);

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use rocking_wall::wall::Usual;
 
 use crate::error::CheckError;
-use crate::file::lines_of_grid;
 use crate::file::site::{no_place, return_period};
+use crate::file::{HAS_FILES, lines_of_grid};
 use crate::words::names::LimitState;
 use crate::words::others::improbable;
 use crate::words::{Sentence, at_most, joined, say};
@@ -48,6 +48,10 @@ const OTHER: f64 = 0.02;
 /// beside the one of the table.
 pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromGrid>, CheckError> {
     let Some(site) = table.site.clone() else { return Ok(None) };
+    if !HAS_FILES {
+        let message = "a page reads no grid; state ag, F0 and TC of each limit state";
+        return Err(CheckError::value(&["site"], message));
+    }
     let file = (!site.grid.contains('\n')).then(|| folder.join(&site.grid));
     let hazard = read(&site, folder, file.as_deref())?;
     let [first, last] = hazard.periods();
