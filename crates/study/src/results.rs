@@ -5,7 +5,7 @@ use crate::fragility::{
     Bootstrap, Cloud, Dispersion, Estimator, FitError, Lognormal, Sample, Summary, Weights, compare,
     compare_clouds, fit,
 };
-use crate::ida::{Crossing, Curve, Exceedance, Polarity};
+use crate::ida::{Crossing, Curve, Exceedance, Layout, Polarity};
 
 /// Makes the results of each wall of a study.
 #[derive(Clone, Debug)]
@@ -19,12 +19,11 @@ pub struct Fitting {
     grid: Option<Vec<f64>>,
     crossing: Crossing,
     dispersion: Dispersion,
-    is_cloud: bool,
+    layout: Layout,
     bootstrap: Bootstrap,
     /// β of modelling \[-\].
     modelling: f64,
     weights: Weights,
-    is_apart: bool,
 }
 
 /// Curves of one wall with every model and record, and a fragility of every model and limit state.
@@ -60,27 +59,20 @@ impl Fitting {
             fractions: report.fractions.clone(),
             grid,
             crossing: report.collapse,
-            is_cloud: false,
+            layout: Layout::Curves,
             dispersion: report.beta,
             bootstrap: Bootstrap::new(records, report.resamples as usize, report.seed)
                 .weighted(&report.weights)
                 .corrected(report.small_sample),
             modelling: report.modelling_uncertainty,
             weights: report.weights.clone(),
-            is_apart: false,
         }
     }
 
-    /// Takes the curves as a cloud, of one run each.
+    /// Takes the curves as a cloud, of one run each, or as stripes of their own records.
     #[must_use]
-    pub fn with_cloud(self, is_cloud: bool) -> Self {
-        Self { is_cloud, ..self }
-    }
-
-    /// Takes levels with records of their own.
-    #[must_use]
-    pub fn with_stripes(self, is_apart: bool) -> Self {
-        Self { is_apart, ..self }
+    pub fn with_layout(self, layout: Layout) -> Self {
+        Self { layout, ..self }
     }
 
     /// Takes records of both signs as pairs, which the bootstrap draws together.
@@ -120,7 +112,7 @@ impl Fitting {
                 let [a, b, c] = &all;
                 // the single run of a record in a cloud tells no crossing
                 let none = [Err(FitError::Cloud); 3];
-                let by_crossing = if self.is_cloud { none } else { [fit(a), fit(b), fit(c)] };
+                let by_crossing = if self.layout == Layout::Cloud { none } else { [fit(a), fit(b), fit(c)] };
                 StateResults { summary, sample: chosen[model][state].clone(), by_crossing }
             };
             summaries.into_iter().enumerate().map(of_model).collect()
@@ -135,7 +127,7 @@ impl Fitting {
     /// # Panics
     /// As [`results`](Self::results).
     pub fn summaries(&self, curves: &[Curve], fractions: &[f64]) -> Vec<Vec<Summary>> {
-        if self.is_cloud {
+        if self.layout == Layout::Cloud {
             return compare_clouds(&self.clouds(curves), fractions, self.reference, &self.bootstrap);
         }
         let samples = self.samples(curves, fractions, self.crossing);
@@ -144,7 +136,7 @@ impl Fitting {
 
     /// Takes the clouds of the models; none of other studies.
     fn clouds(&self, curves: &[Curve]) -> Vec<Cloud> {
-        let curves = if self.is_cloud { curves } else { &[] };
+        let curves = if self.layout == Layout::Cloud { curves } else { &[] };
         curves.chunks(self.records).map(|curves| Cloud::of_curves(curves).weighted(&self.weights)).collect()
     }
 
@@ -158,10 +150,12 @@ impl Fitting {
         assert_eq!(curves.len(), self.models * self.records, "one curve for each model and record");
         let of_model = |curves: &[Curve]| {
             // a cloud has no demands between the origin and its runs
-            let levels = if self.is_cloud { Some(&[][..]) } else { self.grid.as_deref() };
+            let levels = if self.layout == Layout::Cloud { Some(&[][..]) } else { self.grid.as_deref() };
             let of_state = |fraction| {
                 let sample = match levels {
-                    Some(levels) if self.is_apart => Sample::of_stripes(curves, fraction, levels),
+                    Some(levels) if self.layout == Layout::Stripes => {
+                        Sample::of_stripes(curves, fraction, levels)
+                    }
                     _ => Sample::of_curves(curves, fraction, crossing, levels),
                 };
                 sample.weighted(&self.weights)

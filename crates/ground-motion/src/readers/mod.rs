@@ -42,60 +42,83 @@ type Recognises = fn(&[&str]) -> bool;
 /// Reads every channel of a text.
 type Parse = fn(&str, &RecordOptions) -> Result<Vec<Parsed>, Fault>;
 
-/// A format: its short name, what people call it, the endings of its files, whether these say which direction
-/// a component has, and its reader.
-type Known = (Format, &'static str, &'static str, &'static [&'static str], bool, Recognises, Parse);
+/// What is known of a format.
+struct Known {
+    /// Its short name.
+    name: &'static str,
+    /// What people call it.
+    description: &'static str,
+    /// Endings of the names of its files.
+    endings: &'static [&'static str],
+    /// Whether its files say which direction a component has.
+    states_direction: bool,
+    recognises: Recognises,
+    parse: Parse,
+}
 
 const KNET: &[&str] = &["ew", "ns", "ud", "ew1", "ns1", "ud1", "ew2", "ns2", "ud2"];
 
-/// The formats in the order of the enumeration, in which they are tried. CSMIP comes after GeoNet, volume 1,
-/// COSMOS and SMC, whose first lines may have the same words; AT2, known by two words anywhere in its header,
-/// comes after tables, whose title may have them too.
-const KNOWN: [Known; Format::ALL.len()] = [
-    (Format::Esm, "esm", "ESM/ITACA", &["asc"], true, esm::recognises, esm::parse),
-    (Format::Geonet, "geonet", "GeoNet", &["v1a", "v2a"], true, geonet::recognises, geonet::parse),
-    (Format::Volume1, "volume1", "RENADIC/BHRC", &[], true, volume_1::recognises, volume_1::parse),
-    (Format::Knet, "knet", "K-NET/KiK-net", KNET, true, knet::recognises, knet::parse),
-    (Format::KnetCsv, "knet-csv", "K-NET CSV", &[], true, knet_csv::recognises, knet_csv::parse),
-    (Format::Afad, "afad", "AFAD", &[], true, afad::recognises, afad::parse),
-    (Format::Cwa, "cwa", "CWA", &[], true, cwb::recognises, cwb::parse),
-    (Format::Unam, "unam", "UNAM", &[], true, unam::recognises, unam::parse),
-    (Format::Cosmos, "cosmos", "COSMOS V2", &["v2c"], true, cosmos::recognises, cosmos::parse),
-    (Format::Smc, "smc", "USGS SMC", &["smc"], true, smc::recognises, smc::parse),
-    (Format::Csmip, "csmip", "CSMIP V2", &["v2"], true, csmip::recognises, csmip::parse),
-    (Format::Fdsn, "fdsn", "FDSN text", &["slist", "tspair"], true, fdsn::recognises, fdsn::parse),
-    (Format::Csv, "csv", "CSV", &[], false, csv::recognises, csv::parse),
-    (Format::At2, "at2", "PEER AT2", &["at2"], false, at2::recognises, at2::parse),
-    // whether these are numbers depends on the step that is stated: see below
-    (Format::Numbers, "numbers", "numbers", &[], false, |_| false, numbers::parse),
-];
-
-// each format stands at its place in the enumeration
-const _: () = {
-    let mut place = 0;
-    while place < KNOWN.len() {
-        assert!(KNOWN[place].0 as usize == place);
-        place += 1;
-    }
+/// The formats in the order in which they are tried. CSMIP comes after GeoNet, volume 1, COSMOS and SMC, whose
+/// first lines may have the same words; AT2, known by two words anywhere in its header, comes after tables,
+/// whose title may have them too.
+const TRIED: [Format; Format::ALL.len()] = {
+    use Format::{
+        Afad, At2, Cosmos, Csmip, Csv, Cwa, Esm, Fdsn, Geonet, Knet, KnetCsv, Numbers, Smc, Unam, Volume1,
+    };
+    [Esm, Geonet, Volume1, Knet, KnetCsv, Afad, Cwa, Unam, Cosmos, Smc, Csmip, Fdsn, Csv, At2, Numbers]
 };
 
 impl Format {
+    fn known(self) -> Known {
+        fn known(
+            name: &'static str,
+            description: &'static str,
+            endings: &'static [&'static str],
+            states_direction: bool,
+            recognises: Recognises,
+            parse: Parse,
+        ) -> Known {
+            Known { name, description, endings, states_direction, recognises, parse }
+        }
+        match self {
+            Self::Esm => known("esm", "ESM/ITACA", &["asc"], true, esm::recognises, esm::parse),
+            Self::Geonet => {
+                known("geonet", "GeoNet", &["v1a", "v2a"], true, geonet::recognises, geonet::parse)
+            }
+            Self::Volume1 => {
+                known("volume1", "RENADIC/BHRC", &[], true, volume_1::recognises, volume_1::parse)
+            }
+            Self::Knet => known("knet", "K-NET/KiK-net", KNET, true, knet::recognises, knet::parse),
+            Self::KnetCsv => known("knet-csv", "K-NET CSV", &[], true, knet_csv::recognises, knet_csv::parse),
+            Self::Afad => known("afad", "AFAD", &[], true, afad::recognises, afad::parse),
+            Self::Cwa => known("cwa", "CWA", &[], true, cwb::recognises, cwb::parse),
+            Self::Unam => known("unam", "UNAM", &[], true, unam::recognises, unam::parse),
+            Self::Cosmos => known("cosmos", "COSMOS V2", &["v2c"], true, cosmos::recognises, cosmos::parse),
+            Self::Smc => known("smc", "USGS SMC", &["smc"], true, smc::recognises, smc::parse),
+            Self::Csmip => known("csmip", "CSMIP V2", &["v2"], true, csmip::recognises, csmip::parse),
+            Self::Fdsn => {
+                known("fdsn", "FDSN text", &["slist", "tspair"], true, fdsn::recognises, fdsn::parse)
+            }
+            Self::Csv => known("csv", "CSV", &[], false, csv::recognises, csv::parse),
+            Self::At2 => known("at2", "PEER AT2", &["at2"], false, at2::recognises, at2::parse),
+            // whether these are numbers depends on the step that is stated: see below
+            Self::Numbers => known("numbers", "numbers", &[], false, |_| false, numbers::parse),
+        }
+    }
+
     /// Returns the format's short name, such as `at2`.
     pub fn name(self) -> &'static str {
-        let (_, name, ..) = KNOWN[self as usize];
-        name
+        self.known().name
     }
 
     /// Returns what people call the format.
     pub fn description(self) -> &'static str {
-        let (_, _, description, ..) = KNOWN[self as usize];
-        description
+        self.known().description
     }
 
     /// Returns whether its files say which direction a component has; otherwise their names may.
     pub(crate) fn states_direction(self) -> bool {
-        let (.., states_direction, _, _) = KNOWN[self as usize];
-        states_direction
+        self.known().states_direction
     }
 
     /// Finds the format of a text by its content, or else by the ending of the file's name; refuses one that
@@ -103,25 +126,24 @@ impl Format {
     pub(crate) fn of(name: &str, text: &str, options: &RecordOptions) -> Result<Self, Fault> {
         let head: Vec<&str> = untrimmed_lines(text).take(HEAD_LINES).map(|(_, line)| line).collect();
         refuse_unread(&head)?;
-        let by_content = KNOWN.iter().find(|(.., recognises, _)| recognises(&head));
+        let by_content = TRIED.into_iter().find(|format| (format.known().recognises)(&head));
         if by_content.is_none() && numbers::recognises(&head, options.step.is_some()) {
             return Ok(Self::Numbers);
         }
         let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
         let has_ending = |endings: &[&str]| endings.iter().any(|known| ending.as_deref() == Some(known));
-        let known = by_content.or_else(|| KNOWN.iter().find(|(_, _, _, endings, ..)| has_ending(endings)));
-        Ok(known.map_or(Self::Csv, |(format, ..)| *format))
+        let by_ending = || TRIED.into_iter().find(|format| has_ending(format.known().endings));
+        Ok(by_content.or_else(by_ending).unwrap_or(Self::Csv))
     }
 
     /// Reads every channel of a text in this format.
     pub(crate) fn parse(self, text: &str, options: &RecordOptions) -> Result<Vec<Parsed>, Fault> {
-        let (.., parse) = KNOWN[self as usize];
         if let Some(column) = options.column.as_ref().filter(|_| self != Self::Csv) {
             let expected = format!("a table with the column {}", excerpt(column));
             let found = format!("{}, a format without named columns", self.description());
             return Err(Fault::new(1, expected, found, "state no column (on the command line --column)"));
         }
-        parse(text, options)
+        (self.known().parse)(text, options)
     }
 }
 

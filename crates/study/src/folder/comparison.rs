@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::fragility::Interval;
+use crate::ida::Layout;
 use crate::results::WallResults;
 use report::escaped;
 use report::palette::sign;
@@ -44,7 +45,11 @@ impl Comparison {
              <p class=\"subtitle\">Marks: {}; lines: their 95&nbsp;% intervals, {}.</p>\
              <div class=\"forest\" style=\"--step:{step:.3}%;--high:{}px\">",
             escaped(&manifest.contents.axis()),
-            if manifest.contents.is_cloud { "θ of the regressions" } else { "medians over the records" },
+            if manifest.contents.layout == Layout::Cloud {
+                "θ of the regressions"
+            } else {
+                "medians over the records"
+            },
             manifest.contents.interval_of_medians(),
             LANE * manifest.contents.models.len()
         );

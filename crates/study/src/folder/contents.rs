@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::document::ReportOptions;
-use crate::ida::{Case, Collapse, IntensityMeasure, IntensityUnit, Levels, Polarity, Scaled, Study};
+use crate::ida::{Case, Collapse, IntensityMeasure, IntensityUnit, Layout, Polarity, Scaled, Study};
 use crate::results::Fitting;
 use rocking_wall::scene::fingerprint;
 use run::wall_text::wall_text;
@@ -25,12 +25,8 @@ pub struct Contents {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spectrum: Option<[Vec<f64>; 2]>,
     pub(crate) levels: String,
-    /// Whether each record is run once, at its own level.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub(crate) is_cloud: bool,
-    /// Whether each level has its own records.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub(crate) is_apart: bool,
+    #[serde(flatten)]
+    pub(crate) layout: Layout,
     /// Levels where all records share them, in SI units.
     pub(crate) grid: Option<Vec<f64>>,
     pub(crate) tail_s: f64,
@@ -120,12 +116,11 @@ impl Manifest {
 
     /// Returns what makes the results of its walls.
     pub fn fitting(&self) -> Fitting {
-        let Contents { models, records, grid, polarity, is_cloud, is_apart, .. } = &self.contents;
+        let Contents { models, records, grid, polarity, layout, .. } = &self.contents;
         let models: Vec<_> = models.iter().map(|model| model.name.as_str()).collect();
         Fitting::new(records.len(), &models, grid.clone(), &self.report)
             .with_polarity(*polarity)
-            .with_cloud(*is_cloud)
-            .with_stripes(*is_apart)
+            .with_layout(*layout)
     }
 
     /// Returns the fingerprint of all fields except the checksum.
@@ -138,7 +133,7 @@ impl Manifest {
 impl Contents {
     /// Says how the intervals of medians are made; those of a cloud are its θ.
     pub(crate) fn interval_of_medians(&self) -> &'static str {
-        if self.is_cloud || self.is_apart { "studentised" } else { "by percentiles" }
+        if self.layout == Layout::Curves { "by percentiles" } else { "studentised" }
     }
 
     /// Collects the contents of a study.
@@ -183,8 +178,7 @@ impl Contents {
                 _ => None,
             },
             levels: study.levels().description(study.measure().unit().si()),
-            is_cloud: matches!(study.levels(), Levels::Cloud { .. }),
-            is_apart: matches!(study.levels(), Levels::Stripes(_)),
+            layout: study.levels().layout(),
             grid: study.levels().shared(),
             tail_s: study.tail(),
             collapse_is: study.collapse(),

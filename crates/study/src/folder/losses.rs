@@ -2,7 +2,7 @@
 //! what the page and the terminal show of them.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::fragility::{CONFIDENCE, Interval, Lognormal, TAIL};
 use crate::hazard::Hazard;
@@ -12,6 +12,7 @@ use report::table::{Digits, Table};
 
 use super::contents::Manifest;
 use super::error::FolderError;
+use super::finished::Finished;
 use super::nrml::Nrml;
 use super::rates::between;
 use super::rows::Rows;
@@ -100,13 +101,13 @@ impl<'a> Losses<'a> {
         Ok(())
     }
 
-    /// Completes the files; returns their paths, what is to be said, and the section of the page.
-    pub(crate) fn finish(self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
+    /// Completes the files.
+    pub(crate) fn finish(self) -> Result<Finished, FolderError> {
         let Self { curves, xml, annual, mut shown, .. } = self;
-        let mut paths = vec![curves.commit()?];
-        paths.extend(xml.map(Nrml::finish).transpose()?);
-        paths.extend(annual.map(|(_, file)| file.commit()).transpose()?);
-        let (mut told, mut html) = (String::new(), "<section><h2>Losses</h2>".to_owned());
+        let mut files = vec![curves.commit()?];
+        files.extend(xml.map(Nrml::finish).transpose()?);
+        files.extend(annual.map(|(_, file)| file.commit()).transpose()?);
+        let (mut said, mut html) = (String::new(), "<section><h2>Losses</h2>".to_owned());
         let table = shown.table();
         if !table.rows.is_empty() {
             let words = format!(
@@ -114,11 +115,11 @@ impl<'a> Losses<'a> {
                  studentised; \"at most\" adds what may lie outside the hazard curve",
                 100.0 * CONFIDENCE
             );
-            told = format!("{words}\n{}", table.text());
+            said = format!("{words}\n{}", table.text());
             let _ = write!(html, "<p class=\"subtitle\">{words}.</p>{}", table.html());
         }
         let _ = writeln!(html, "<h3>Mean loss ratio by intensity</h3>{}</section>", shown.plots());
-        Ok((paths, told, html))
+        Ok(Finished { files, words: said, html })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Which intensity measure to choose: `measures.csv`, and what the page and the terminal show of it.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::measures::{CollapseOf, Compared, Fit, Shown};
 use crate::results::WallResults;
@@ -12,6 +12,7 @@ use run::file;
 
 use super::contents::Manifest;
 use super::error::FolderError;
+use super::finished::Finished;
 use super::legend::looks;
 use super::subject::MOST_WALLS;
 
@@ -64,8 +65,8 @@ impl<'a> Measures<'a> {
         }
     }
 
-    /// Writes the file; returns its path, what is to be said, and the section of the page.
-    pub(crate) fn finish(mut self, folder: &Path) -> Result<(PathBuf, String, String), FolderError> {
+    /// Writes the file.
+    pub(crate) fn finish(mut self, folder: &Path) -> Result<Finished, FolderError> {
         let count = self.compared.measures.len();
         let is_one = self.manifest.contents.walls.len() == 1;
         let own = self.rows.len();
@@ -88,7 +89,8 @@ impl<'a> Measures<'a> {
             let _ = write!(html, "<details><summary>Wall by wall</summary>{table}</details>");
         }
         html.push_str("</section>\n");
-        Ok((path, format!("intensity measures: {}\n{}", words.join("\n"), table.text()), html))
+        let words = format!("intensity measures: {}\n{}", words.join("\n"), table.text());
+        Ok(Finished { files: vec![path], words, html })
     }
 
     /// Explains the numbers, in lines for the terminal.

@@ -10,6 +10,7 @@
 //! |---|---|
 //! | `error` | errors |
 //! | `rows` | a table that grows wall by wall |
+//! | `finished` | a finished part of the report |
 //! | `contents` | what the runs of a study depend on |
 //! | `part` | a part as Parquet |
 //! | `tables` | the rows of the tables of all studies |
@@ -39,6 +40,7 @@ mod compute;
 mod contents;
 mod curves;
 mod error;
+mod finished;
 mod given;
 mod legend;
 mod losses;

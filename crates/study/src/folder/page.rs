@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::fragility::{Dispersion, Interval, Lognormal, Summary};
-use crate::ida::{Collapse, Crossing, Exceedance, Polarity, SENSITIVE_ABOVE};
+use crate::ida::{Collapse, Crossing, Exceedance, Layout, Polarity, SENSITIVE_ABOVE};
 use crate::results::WallResults;
 use report::table::{Cell, Column, Digits, Table};
 use report::{SCROLLS, counted, escaped, number, template};
@@ -42,10 +42,9 @@ pub(crate) fn page(manifest: &Manifest, runs: usize, sensitive: [usize; 2], sect
         } else {
             "A run stops when the wall overturns, |u| &gt; u<sub>ins</sub>"
         },
-        if contents.is_cloud || contents.is_apart {
-            ""
-        } else {
-            "; the lowest level at which it does is the collapse"
+        match contents.layout {
+            Layout::Curves => "; the lowest level at which it does is the collapse",
+            Layout::Cloud | Layout::Stripes => "",
         },
         if sensitive[0] > 0 { format!(" {}.", sensitive_words(sensitive)) } else { String::new() },
     );
@@ -98,7 +97,7 @@ fn measure_words(manifest: &Manifest) -> String {
 /// Explains medians, fits and intervals.
 fn reading(manifest: &Manifest) -> String {
     let report = &manifest.report;
-    if manifest.contents.is_cloud {
+    if manifest.contents.layout == Layout::Cloud {
         return format!(
             "Each record is run once, at its own level; points at the right edge are walls that overturned. \
              The lines are the regressions ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM, by maximum \
@@ -178,11 +177,11 @@ pub(crate) fn section(manifest: &Manifest, wall: usize, results: &WallResults, r
             collapses(shown)
         );
     }
-    let drawn = match (contents.is_cloud, contents.grid.is_some()) {
-        _ if contents.is_apart => "Stripes, each of its own records",
-        (true, _) => "Clouds, with their regressions",
-        (false, true) => "Stripes, with their 16, 50 and 84 % fractiles",
-        (false, false) => "IDA curves, with their 16, 50 and 84 % fractiles",
+    let drawn = match (contents.layout, contents.grid.is_some()) {
+        (Layout::Stripes, _) => "Stripes, each of its own records",
+        (Layout::Cloud, _) => "Clouds, with their regressions",
+        (Layout::Curves, true) => "Stripes, with their 16, 50 and 84 % fractiles",
+        (Layout::Curves, false) => "IDA curves, with their 16, 50 and 84 % fractiles",
     };
     let _ = write!(html, "</div><h3>{drawn}</h3><div class=\"row\">");
     for (model, name) in contents.models.iter().enumerate().map(|(index, model)| (index, &model.name)) {
@@ -220,7 +219,7 @@ fn shape(parameters: &str) -> String {
 /// Lists the collapse of each record with each model, unless there are too many records for a page.
 fn collapses(shown: Shown<'_>) -> String {
     let Contents { records, models, unit, .. } = &shown.manifest.contents;
-    if records.len() > MOST_LISTED || shown.manifest.contents.is_cloud || shown.manifest.contents.is_apart {
+    if records.len() > MOST_LISTED || shown.manifest.contents.layout != Layout::Curves {
         return String::new();
     }
     let columns = models.iter().map(|model| Column::number("", model.name.clone(), OF_INTENSITY));
@@ -276,7 +275,7 @@ fn table(shown: Shown<'_>, collapse: usize) -> String {
         .number("", format!("θ /\n{reference}"), OF_RATIO, |(model, one)| {
             ratio(*model, &one.summary.theta_ratio)
         });
-    if contents.is_cloud {
+    if contents.layout == Layout::Cloud {
         return table.number("", "overturned", OF_RATIO, |(_, one)| one.summary.censored).done().html();
     }
     let again = |model: usize| results.curves(model).iter().filter(|curve| curve.resurrections() > 0).count();

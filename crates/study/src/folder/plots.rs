@@ -1,7 +1,7 @@
 //! The plots of a wall: fragilities and IDA curves or stripes.
 
 use crate::fragility::{Regression, Sample, Weights};
-use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, Run};
+use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, Layout, Run};
 use crate::results::{StateResults, WallResults};
 use report::palette::Mark;
 use report::plot::{Axis, Look, Plot, Series};
@@ -54,7 +54,7 @@ pub(crate) fn fragility(shown: Shown<'_>, place: usize, top: f64) -> String {
         results.states(place).iter().zip(looks(manifest))
     {
         let counts = sample.counts();
-        if counts.is_empty() && !manifest.contents.is_cloud {
+        if counts.is_empty() && manifest.contents.layout != Layout::Cloud {
             let mut points = vec![(0.0, 0.0)];
             let mut before = 0.0;
             for (intensity, part) in sample.steps() {
@@ -115,7 +115,7 @@ pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> 
     let (color, _) = looks(manifest)[model];
     let mut series = Vec::new();
     for (curve, record) in all.iter().zip(&manifest.contents.records).step_by(every) {
-        if manifest.contents.grid.is_some() || manifest.contents.is_cloud {
+        if manifest.contents.grid.is_some() || manifest.contents.layout == Layout::Cloud {
             let demand = |run: &Run| if run.overturning.is_some() { OVERTURNED } else { run.demand };
             let runs = curve.runs().iter().map(|run| (demand(run), unit.of(run.intensity))).collect();
             series.push(Series { look: Look::Marks(Mark::Dot), ..Series::stroke(color, 4.0, runs) });
@@ -128,7 +128,7 @@ pub(crate) fn curves(shown: Shown<'_>, model: usize, every: usize, top: f64) -> 
         let at = |k: u32| top * f64::from(k) / f64::from(POINTS);
         let line = |fit: Regression| (1..=POINTS).map(|k| (fit.demand(at(k) * unit.size()), at(k))).collect();
         series.push(Series::stroke(color, 2.6, cloud.fit().map(line).unwrap_or_default()));
-    } else if !manifest.contents.is_apart {
+    } else if manifest.contents.layout == Layout::Curves {
         let looks = [(Look::Dashed, 2.0), (Look::Dashed, 2.0), (Look::Solid, 2.6)];
         let paths = fractile_paths(all, &manifest.report.weights, unit).into_iter().zip(looks);
         series

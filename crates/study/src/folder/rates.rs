@@ -2,7 +2,7 @@
 //! and the terminal show of them.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::fragility::{CONFIDENCE, Interval};
 use crate::hazard::{AgainstTarget, Hazard, Rate, probability};
@@ -12,6 +12,7 @@ use report::table::{Column, Digits, Table};
 
 use super::contents::Manifest;
 use super::error::FolderError;
+use super::finished::Finished;
 use super::rows::Rows;
 use super::shown::Shown;
 use super::subject::{Fragilities, State, Subject};
@@ -121,8 +122,8 @@ impl<'a> Rates<'a> {
         beyond.into_iter().chain(apart).collect()
     }
 
-    /// Completes the files; returns their paths, what is to be said, and the section of the page.
-    pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
+    /// Completes the files.
+    pub(crate) fn finish(mut self) -> Result<Finished, FolderError> {
         let (contents, [from, to]) = (&self.manifest.contents, self.ends().map(|x| OF_INTENSITY.of(x)));
         let mut words = format!(
             "annual rates from {} of {from} to {to} {}, {:.0} % intervals of the records, studentised; \
@@ -143,8 +144,8 @@ impl<'a> Rates<'a> {
             table.html(),
             self.shown.plots()
         );
-        let paths = self.files.into_iter().map(Rows::commit).collect::<Result<_, _>>()?;
-        Ok((paths, format!("{words}\n{}", table.text()), html))
+        let files = self.files.into_iter().map(Rows::commit).collect::<Result<_, _>>()?;
+        Ok(Finished { files, words: format!("{words}\n{}", table.text()), html })
     }
 }
 

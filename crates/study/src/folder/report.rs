@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::fragility::{Dispersion, Interval};
-use crate::ida::{Curve, Exceedance, MOST_LISTED, SENSITIVE_ABOVE};
+use crate::ida::{Curve, Exceedance, Layout, MOST_LISTED, SENSITIVE_ABOVE};
 use crate::results::WallResults;
 use report::counted;
 use report::table::{Cell, Table};
@@ -102,7 +102,7 @@ impl<'a> Output<'a> {
             Ok::<_, FolderError>((kind, Rows::new(&path)?))
         };
         let ties = folder.contents().has_yielding_ties().then_some(&TIES);
-        let cloud = folder.contents().is_cloud.then_some(&CLOUD);
+        let cloud = (folder.contents().layout == Layout::Cloud).then_some(&CLOUD);
         let given = (!folder.manifest().report.given.is_empty()).then_some(&GIVEN);
         let kinds = if folder.contents().count() <= MOST_LISTED { &KINDS[..] } else { &KINDS[2..] };
         let kinds = kinds.iter().chain(ties).chain(cloud).chain(given).copied();
@@ -147,7 +147,7 @@ impl<'a> Output<'a> {
             let regression = "Regression ln(u<sub>max</sub>/u<sub>ins</sub>) = a + b ln IM";
             let before = "Fragilities of the last shock, given the largest |u|/u<sub>ins</sub> d before it";
             let tables = [
-                (manifest.contents.is_cloud, regression, CLOUD),
+                (manifest.contents.layout == Layout::Cloud, regression, CLOUD),
                 (has_tie, "Ties, up to overturning", TIES),
                 (!manifest.report.given.is_empty(), before, GIVEN),
             ];
@@ -188,19 +188,20 @@ impl<'a> Output<'a> {
         self.sections.insert_str(0, &together);
         let mut summary = self.summary(manifest, is_large);
         let warnings: Vec<_> = self.warning(manifest).into_iter().chain(self.risk.warnings()).collect();
-        let (mut files, about_risk, rates) = self.risk.finish()?;
+        let risk = self.risk.finish()?;
+        let mut files = risk.files;
         if let Some(sampled) = self.sampled {
-            let (paths, section) = sampled.finish(self.folder.path())?;
-            files.extend(paths);
-            self.sections.insert_str(0, &section);
+            let sampled = sampled.finish(self.folder.path())?;
+            files.extend(sampled.files);
+            self.sections.insert_str(0, &sampled.html);
         }
         if let Some(measures) = self.measures {
-            let (path, words, section) = measures.finish(self.folder.path())?;
-            files.push(path);
-            self.sections.insert_str(0, &section);
-            summary.push_str(&words);
+            let measures = measures.finish(self.folder.path())?;
+            files.extend(measures.files);
+            self.sections.insert_str(0, &measures.html);
+            summary.push_str(&measures.words);
         }
-        self.sections.insert_str(0, &rates);
+        self.sections.insert_str(0, &risk.html);
         if let Some(table) = records(manifest) {
             let path = self.folder.path().join("records.csv");
             file::to_file(&path, table.csv().as_bytes())?;
@@ -222,7 +223,7 @@ impl<'a> Output<'a> {
         let path = self.folder.path().join(PAGE);
         file::to_file(&path, page::page(manifest, self.runs, self.sensitive, &self.sections).as_bytes())?;
         files.push(path);
-        Ok(Report { summary: summary + &about_risk, warnings, files })
+        Ok(Report { summary: summary + &risk.words, warnings, files })
     }
 
     fn summary(&self, manifest: &Manifest, is_large: bool) -> String {
@@ -302,7 +303,7 @@ impl<'a> Output<'a> {
         let fits = contents.walls.len() * contents.models.len();
         let named = format!("{} of {fits} fits: {}{more}", self.doubts.len(), named.join(", "));
         let told = match manifest.report.beta {
-            _ if contents.is_cloud => format!(
+            _ if contents.layout == Layout::Cloud => format!(
                 "theta of the collapse is not among the runs in {named}; scale the records, or add others"
             ),
             Dispersion::Common => format!(
@@ -328,7 +329,7 @@ fn collapse(manifest: &Manifest) -> Option<usize> {
 /// whether θ of the collapse lies outside the runs, or there is no regression.
 fn is_doubted(manifest: &Manifest, model: usize, results: &WallResults) -> bool {
     let Manifest { report, contents, .. } = manifest;
-    if contents.is_cloud {
+    if contents.layout == Layout::Cloud {
         let runs = || results.curves(model).iter().flat_map(Curve::runs).map(|run| run.intensity);
         let is_among = |theta: f64| runs().any(|x| x <= theta) && runs().any(|x| x >= theta);
         let theta = |state| results.summary(state, model).fitted.map(|curve| curve.median);

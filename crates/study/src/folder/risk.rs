@@ -2,14 +2,16 @@
 //! every wall and of every class of walls; and what follows from them.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::document::WallClass;
 use crate::fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Lognormal};
+use crate::ida::Layout;
 use crate::results::WallResults;
 
 use super::contents::Manifest;
 use super::error::FolderError;
+use super::finished::Finished;
 use super::losses::Losses;
 use super::nrml::{self, Nrml, state_name};
 use super::pelicun::{self, Pelicun};
@@ -118,10 +120,9 @@ impl<'a> Risk<'a> {
         Ok(())
     }
 
-    /// Adds the classes, and completes the files; returns their paths, what is to be said of them, and a
-    /// section of the page.
-    pub(crate) fn finish(mut self) -> Result<(Vec<PathBuf>, String, String), FolderError> {
-        let mut told = String::new();
+    /// Adds the classes, and completes the files.
+    pub(crate) fn finish(mut self) -> Result<Finished, FolderError> {
+        let mut words = String::new();
         let all = std::mem::take(&mut self.classes).into_iter().zip(std::mem::take(&mut self.resamples));
         for ((class, walls), resamples) in all {
             let mut models = Vec::new();
@@ -129,7 +130,7 @@ impl<'a> Risk<'a> {
                 let is_without = |wall: &&usize| self.members[*wall][model].is_none();
                 let without: Vec<usize> = walls.iter().filter(is_without).copied().collect();
                 if !without.is_empty() {
-                    told.push_str(&self.without_curve(class, model, &without));
+                    words.push_str(&self.without_curve(class, model, &without));
                 }
                 let members = walls.iter().map(|wall| self.members[wall][model].clone());
                 let members: Option<Vec<_>> = members.collect();
@@ -144,22 +145,23 @@ impl<'a> Risk<'a> {
             self.write(&Subject { name, class: Some(walls.len()), parameters, models })?;
         }
         let table = self.shown.table();
-        let mut section = self.section(&table);
+        let mut html = self.section(&table);
         if !table.rows.is_empty() {
-            told = format!("{told}curves of classes of walls, and the parts of their beta\n{}", table.text());
+            words =
+                format!("{words}curves of classes of walls, and the parts of their beta\n{}", table.text());
         }
-        told.push_str(&self.words());
-        let mut paths = vec![self.table.commit()?];
-        paths.extend(self.xml.map(Nrml::finish).transpose()?);
-        paths.extend(self.pelicun.map(Pelicun::finish).transpose()?.into_iter().flatten());
+        words.push_str(&self.words());
+        let mut files = vec![self.table.commit()?];
+        files.extend(self.xml.map(Nrml::finish).transpose()?);
+        files.extend(self.pelicun.map(Pelicun::finish).transpose()?.into_iter().flatten());
         let rates = self.rates.map(Rates::finish).transpose()?;
         let losses = self.losses.map(Losses::finish).transpose()?;
-        for (files, words, html) in rates.into_iter().chain(losses) {
-            paths.extend(files);
-            told.push_str(&words);
-            section.push_str(&html);
+        for part in rates.into_iter().chain(losses) {
+            files.extend(part.files);
+            words.push_str(&part.words);
+            html.push_str(&part.html);
         }
-        Ok((paths, told, section))
+        Ok(Finished { files, words, html })
     }
 
     /// Says what the annual rates leave out.
@@ -313,7 +315,7 @@ impl<'a> Risk<'a> {
         if self.left_out == 0 {
             return pelicun;
         }
-        let remedy = if self.manifest.contents.is_cloud {
+        let remedy = if self.manifest.contents.layout == Layout::Cloud {
             "change the scale, or add records"
         } else {
             "add levels below or above, or records, or drop its fraction"

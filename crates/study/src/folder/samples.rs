@@ -2,7 +2,7 @@
 //! section of the page.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::results::WallResults;
 use crate::uncertain::{Samples, Sensitivity, sensitivities};
@@ -12,6 +12,7 @@ use run::file;
 
 use super::contents::Manifest;
 use super::error::FolderError;
+use super::finished::Finished;
 use super::legend::looks;
 
 /// Most walls and models of which coefficients are drawn.
@@ -68,8 +69,8 @@ impl<'a> Sampled<'a> {
         self.logarithms.push(states.map(of_state).collect());
     }
 
-    /// Writes the files; returns their paths and the section of the page.
-    pub(crate) fn finish(self, folder: &Path) -> Result<(Vec<PathBuf>, String), FolderError> {
+    /// Writes the files.
+    pub(crate) fn finish(self, folder: &Path) -> Result<Finished, FolderError> {
         let rows = self.rows();
         let [samples, sensitivity, variance] =
             ["samples.csv", "sensitivity.csv", "variance.csv"].map(|name| folder.join(name));
@@ -79,13 +80,13 @@ impl<'a> Sampled<'a> {
         file::to_file(&sensitivity, self.sensitivity(&rows).csv().as_bytes())?;
         let last = self.manifest.report.rising().pop();
         let shown: Vec<_> = parts.into_iter().filter(|part| Some(part.state) == last).collect();
-        let html = self.variance(&shown).html();
-        let section = self.section(&rows)
+        let variances = self.variance(&shown).html();
+        let html = self.section(&rows)
             + "<section><h3>Parts of the variance of ln IM</h3><p>records: mean β² of the samples. \
                Parameters: their parts of the variance of ln θ (Pratt 1987).</p>"
-            + &html
+            + &variances
             + "</section>\n";
-        Ok((vec![samples, sensitivity, variance], section))
+        Ok(Finished { files: vec![samples, sensitivity, variance], words: String::new(), html })
     }
 
     /// Splits the variance of ln IM of each wall, model and limit state: E β² of the records, Var ln θ by the

@@ -4,6 +4,7 @@ use super::curve::Run;
 use super::error::IdaError;
 use super::unit::IntensityUnit;
 use record::LANES;
+use serde::{Deserialize, Serialize};
 
 /// Most levels of one curve.
 const MOST_LEVELS: usize = 2000;
@@ -73,7 +74,54 @@ fn check_range(
     Err(IdaError::Levels { name, value: shown(value), limit })
 }
 
+/// What the runs of a study are over the intensity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(from = "LayoutKeys", into = "LayoutKeys")]
+pub enum Layout {
+    /// Curves: each record at several levels.
+    #[default]
+    Curves,
+    /// A cloud: each record once, at its own level.
+    Cloud,
+    /// Stripes: each level with records of its own.
+    Stripes,
+}
+
+/// The keys of a [`Layout`] in the description of a study.
+#[derive(Serialize, Deserialize)]
+struct LayoutKeys {
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    is_cloud: bool,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    is_apart: bool,
+}
+
+impl From<Layout> for LayoutKeys {
+    fn from(layout: Layout) -> Self {
+        Self { is_cloud: layout == Layout::Cloud, is_apart: layout == Layout::Stripes }
+    }
+}
+
+impl From<LayoutKeys> for Layout {
+    fn from(keys: LayoutKeys) -> Self {
+        match keys {
+            LayoutKeys { is_cloud: true, .. } => Self::Cloud,
+            LayoutKeys { is_apart: true, .. } => Self::Stripes,
+            LayoutKeys { .. } => Self::Curves,
+        }
+    }
+}
+
 impl Levels {
+    /// Returns what the runs are over the intensity.
+    pub fn layout(&self) -> Layout {
+        match self {
+            Self::Cloud { .. } => Layout::Cloud,
+            Self::Stripes(_) => Layout::Stripes,
+            Self::Grid(_) | Self::ToOverturning { .. } | Self::HuntAndFill { .. } => Layout::Curves,
+        }
+    }
+
     /// Returns the levels, in the SI unit of the measure, at which every record is run up to its collapse,
     /// and those of stripes;
     /// `None` where each record has its own levels.

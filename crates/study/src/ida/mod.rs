@@ -47,7 +47,7 @@ use run::walls::NamedWall;
 
 pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
 pub use error::IdaError;
-pub use levels::Levels;
+pub use levels::{Layout, Levels};
 pub use measure::{IntensityMeasure, Misfit, ToSi};
 pub use polarity::Polarity;
 pub use sequence::Scaled;

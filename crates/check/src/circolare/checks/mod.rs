@@ -38,12 +38,26 @@ pub struct Checks {
     pub slc: Option<DisplacementCheck>,
 }
 
+/// What the hinge of a side gives.
+pub(super) struct AtHinge {
+    pub(super) curve: Curve,
+    pub(super) checks: Checks,
+}
+
+/// The check that governs a side.
+#[derive(Clone, Copy)]
+pub(super) struct Governing {
+    pub(super) check: Deciding,
+    /// Its `ζ_E` \[-\]; infinite where none decides.
+    pub(super) zeta: f64,
+}
+
 impl Checks {
     /// The curve and the checks of a side, with the hinge of a strip at `hinge` h.
     ///
     /// # Errors
     /// [`CheckError`] of a wall or a demand that has no check.
-    pub(super) fn at(case: &Case<'_>, sign: f64, hinge: Option<f64>) -> Result<(Curve, Self), CheckError> {
+    pub(super) fn at(case: &Case<'_>, sign: f64, hinge: Option<f64>) -> Result<AtHinge, CheckError> {
         Self::of_these(case, sign, hinge, [true; 4])
     }
 
@@ -54,7 +68,7 @@ impl Checks {
         sign: f64,
         hinge: Option<f64>,
         wanted: [bool; 4],
-    ) -> Result<(Curve, Self), CheckError> {
+    ) -> Result<AtHinge, CheckError> {
         let named = |error: CheckError| match hinge {
             Some(hinge) if case.rule != Some(Hinge::Given) => error.at_hinge(hinge),
             _ => error,
@@ -66,7 +80,7 @@ impl Checks {
                 None => &case.demands_at(curve.body())?,
             };
             let checks = Self::new(&curve, case.statement, demands, wanted)?;
-            Ok((curve, checks))
+            Ok(AtHinge { curve, checks })
         };
         found().map_err(named)
     }
@@ -132,11 +146,13 @@ impl Checks {
         }
     }
 
-    /// The check that governs this side, and its `ζ_E`; infinite where none decides.
-    pub(super) fn governing(&self, statement: &Statement) -> (Deciding, f64) {
+    /// The check that governs this side.
+    pub(super) fn governing(&self, statement: &Statement) -> Governing {
         let all = Deciding::ALL.into_iter().zip(self.zetas());
         let deciding = all.filter(|(check, _)| statement.decides(*check));
-        deciding.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((Deciding::Slv, f64::INFINITY))
+        let all = deciding.map(|(check, zeta)| Governing { check, zeta });
+        let least = all.min_by(|a, b| a.zeta.total_cmp(&b.zeta));
+        least.unwrap_or(Governing { check: Deciding::Slv, zeta: f64::INFINITY })
     }
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::activation::{AtActivationNumbers, at_activation};
 use super::ties::{TieNumbers, TieVerdict, of_ties};
-use super::{Checks, DisplacementCheck};
+use super::{AtHinge, Checks, DisplacementCheck, Governing};
 use crate::circolare::curve::Curve;
 use crate::circolare::curve::case::{Case, has_plateau};
 use crate::circolare::curve::hinge::{self, Search};
@@ -51,10 +51,10 @@ impl SideVerdict {
     /// # Errors
     /// [`CheckError`] of a wall or a demand that has no check.
     pub(crate) fn new(case: &Case<'_>, sign: f64) -> Result<Self, CheckError> {
-        let (curve, checks) = by_rule(case, sign, case.rule, hinge::FINE)?;
+        let AtHinge { curve, checks } = by_rule(case, sign, case.rule, hinge::FINE)?;
         let is_tied = curve.tie().is_some();
         let untied = is_tied.then(|| by_rule(&case.untied(), sign, case.rule, hinge::FINE)).transpose()?;
-        let untied = untied.map(|(_, checks)| Untied {
+        let untied = untied.map(|AtHinge { checks, .. }| Untied {
             slv: checks.slv.map(|check| check.zeta),
             slc: checks.slc.map(|check| check.zeta),
         });
@@ -90,7 +90,7 @@ impl SideVerdict {
     /// Finds what the hinge of the least α0 gives, and the least favourable one.
     fn look_beside(&mut self, case: &Case<'_>, sign: f64, rule: Hinge) -> Result<(), CheckError> {
         let statement = case.statement;
-        let (curve, at_least) = match by_rule(case, sign, Some(Hinge::LeastAlpha0), hinge::FINE) {
+        let AtHinge { curve, checks } = match by_rule(case, sign, Some(Hinge::LeastAlpha0), hinge::FINE) {
             Err(error) if rule == Hinge::Given => {
                 self.unsearched = Some(error.to_string());
                 return Ok(());
@@ -101,7 +101,7 @@ impl SideVerdict {
         let found = self.least_alpha0.insert(LeastAlpha0 {
             alpha0: at_activation(&curve, statement)?.alpha0,
             hinge: curve.hinge.unwrap_or(f64::NAN),
-            zeta: finite(at_least.governing(statement).1),
+            zeta: finite(checks.governing(statement).zeta),
             worst: None,
             worst_hinge: None,
             worst_check: None,
@@ -112,15 +112,15 @@ impl SideVerdict {
             Hinge::Worst => self.checks,
             _ if by_records => return Ok(()),
             Hinge::LeastAlpha0 | Hinge::Given => match by_rule(case, sign, Some(Hinge::Worst), hinge::FINE) {
-                Ok((_, checks)) => checks,
+                Ok(found) => found.checks,
                 Err(error) => {
                     self.unsearched = Some(error.to_string());
                     return Ok(());
                 }
             },
         };
-        let (check, lowest) = worst.governing(statement);
-        found.worst = finite(lowest);
+        let Governing { check, zeta } = worst.governing(statement);
+        found.worst = finite(zeta);
         found.worst_hinge = worst.hinge(check);
         found.worst_check = Some(check);
         Ok(())
@@ -283,12 +283,7 @@ fn least_alpha0(case: &Case<'_>, sign: f64) -> Result<f64, CheckError> {
 
 /// The checks of a side by a rule on the hinge, searched as finely as stated, and the curve with the hinge of
 /// the check that governs. A coarse search is for the checks that decide.
-fn by_rule(
-    case: &Case<'_>,
-    sign: f64,
-    rule: Option<Hinge>,
-    search: Search,
-) -> Result<(Curve, Checks), CheckError> {
+fn by_rule(case: &Case<'_>, sign: f64, rule: Option<Hinge>, search: Search) -> Result<AtHinge, CheckError> {
     match rule {
         None => Checks::at(case, sign, None),
         Some(Hinge::Given) => Checks::at(case, sign, Some(case.parameters.hinge_ratio)),
@@ -298,7 +293,7 @@ fn by_rule(
             let counts = Deciding::ALL.map(|check| search.is_fine() || case.statement.decides(check));
             let places = hinge::least(search, range, &hinge::jumps(&case.parameters), |x, which| {
                 let wanted = which.map_or(counts, |which| std::array::from_fn(|check| check == which));
-                let mut zetas = Checks::of_these(case, sign, Some(x), wanted)?.1.zetas();
+                let mut zetas = Checks::of_these(case, sign, Some(x), wanted)?.checks.zetas();
                 for (zeta, _) in zetas.iter_mut().zip(counts).filter(|(_, counts)| !counts) {
                     *zeta = f64::INFINITY;
                 }
@@ -306,19 +301,20 @@ fn by_rule(
             })?;
             let at = |which: usize| places[which].map(|x| Checks::at(case, sign, Some(x))).transpose();
             let found = [at(0)?, at(1)?, at(2)?, at(3)?];
-            let [sld, slv_q, slv, slc] = found.each_ref().map(|found| found.as_ref().map(|found| found.1));
+            let [sld, slv_q, slv, slc] =
+                found.each_ref().map(|found| found.as_ref().map(|found| found.checks));
             let checks = Checks {
                 sld: sld.and_then(|checks| checks.sld),
                 slv_q: slv_q.and_then(|checks| checks.slv_q),
                 slv: slv.and_then(|checks| checks.slv),
                 slc: slc.and_then(|checks| checks.slc),
             };
-            let (governs, _) = checks.governing(case.statement);
+            let governs = checks.governing(case.statement).check;
             let curve = match found.into_iter().nth(governs as usize).flatten() {
-                Some((curve, _)) => curve,
-                None => Checks::at(case, sign, Some(least_alpha0(case, sign)?))?.0,
+                Some(found) => found.curve,
+                None => Checks::at(case, sign, Some(least_alpha0(case, sign)?))?.curve,
             };
-            Ok((curve, checks))
+            Ok(AtHinge { curve, checks })
         }
     }
 }
@@ -334,8 +330,9 @@ fn sensitivity(case: &Case<'_>, sign: f64) -> Vec<Sensitivity> {
     let one = |factor: f64| {
         let value = factor * value;
         // without a check where the wall with this value has none
-        let checks = by_rule(&case.with(factor), sign, case.rule, hinge::COARSE).ok().map(|found| found.1);
-        let zeta = checks.map(|checks| checks.governing(statement).1);
+        let checks =
+            by_rule(&case.with(factor), sign, case.rule, hinge::COARSE).ok().map(|found| found.checks);
+        let zeta = checks.map(|checks| checks.governing(statement).zeta);
         Sensitivity {
             parameter,
             value,

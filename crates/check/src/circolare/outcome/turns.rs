@@ -80,11 +80,11 @@ pub(super) fn by_sensitivity(case: &Case<'_>, sides: &SideVerdicts) -> Vec<Sente
             let (own, zetas) = (side.checks.zetas(), varied.zetas);
             let is_turned =
                 |at: &usize| statement.decides(Deciding::ALL[*at]) && passes(own[*at]) != passes(zetas[*at]);
-            let holds = passes(side.checks.governing(statement).1);
+            let holds = passes(side.checks.governing(statement).zeta);
             let Some(at) = (0..4).find(is_turned).filter(|_| varied.passed == Some(!holds)) else {
                 continue;
             };
-            let before = sides.iter().all(|(_, side)| passes(side.checks.governing(statement).1));
+            let before = sides.iter().all(|(_, side)| passes(side.checks.governing(statement).zeta));
             let after = sides.iter().all(|(_, side)| side.sensitivity[index].passed == Some(true));
             let what = if before == after {
                 say! {

@@ -187,7 +187,7 @@ fn of_hinges(case: &Case<'_>, side: Side, verdict: &SideVerdict) -> Vec<Sentence
 
 /// Where another rule on the hinge gives another verdict.
 fn of_rules(case: &Case<'_>, side: &Sentence, verdict: &SideVerdict, found: LeastAlpha0) -> Option<Sentence> {
-    let own = verdict.checks.governing(case.statement).1;
+    let own = verdict.checks.governing(case.statement).zeta;
     let [least, lowest] = [found.zeta, found.worst].map(|zeta| zeta.unwrap_or(f64::INFINITY));
     let place = fixed(found.worst_hinge.unwrap_or(f64::NAN), 4);
     let passes = |zeta: f64| zeta >= case.statement.target;
@@ -221,7 +221,7 @@ fn of_rules(case: &Case<'_>, side: &Sentence, verdict: &SideVerdict, found: Leas
 /// squat.
 fn of_place(case: &Case<'_>, side: &Sentence, verdict: &SideVerdict) -> Vec<Sentence> {
     let mut warnings = Vec::new();
-    let hinge = verdict.checks.hinge(verdict.checks.governing(case.statement).0);
+    let hinge = verdict.checks.hinge(verdict.checks.governing(case.statement).check);
     let [from, to] = case.statement.hinge_range;
     let is_end = |x: &f64| (x - from).abs() < 1e-9 || (x - to).abs() < 1e-9;
     if let Some(at) = hinge.filter(is_end).filter(|_| case.rule != Some(Hinge::Given)) {

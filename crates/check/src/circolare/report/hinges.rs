@@ -29,7 +29,7 @@ fn rules(case: &Checked<'_>, one: &SideLedger<'_>, language: Language) -> String
     let words = say!("Least favourable hinge", "Cerniera più sfavorevole");
     rows.push(row(Hinge::Worst, words, found.worst_hinge, found.worst));
     if rule == Hinge::Given {
-        let zeta = Some(side.checks.governing(case.statement).1).filter(|zeta| zeta.is_finite());
+        let zeta = Some(side.checks.governing(case.statement).zeta).filter(|zeta| zeta.is_finite());
         let words = say!("Hinge as given", "Cerniera come fornita");
         rows.push(row(Hinge::Given, words, side.curve.hinge, zeta));
     }

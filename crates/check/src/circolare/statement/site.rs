@@ -45,15 +45,21 @@ const AG_30: Usual = Usual {
 const OTHER: f64 = 0.02;
 
 /// Fills in `ag`, F0 and TC of the limit states that leave them out; a spectrum needs `ag` alone. Files are
-/// beside the one of the table.
+/// beside the one of the table. There is nothing without a site.
 pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromGrid>, CheckError> {
-    let Some(site) = table.site.clone() else { return Ok(None) };
-    if !HAS_FILES {
-        let message = "a page reads no grid; state ag, F0 and TC of each limit state";
-        return Err(CheckError::value(&["site"], message));
+    match table.site.clone() {
+        None => Ok(None),
+        Some(_) if !HAS_FILES => {
+            let message = "a page reads no grid; state ag, F0 and TC of each limit state";
+            Err(CheckError::value(&["site"], message))
+        }
+        Some(site) => from_grid(table, &site, folder).map(Some),
     }
+}
+
+fn from_grid(table: &mut CheckTable, site: &SiteTable, folder: &Path) -> Result<FromGrid, CheckError> {
     let file = (!site.grid.contains('\n')).then(|| folder.join(&site.grid));
-    let hazard = read(&site, folder, file.as_deref())?;
+    let hazard = read(site, folder, file.as_deref())?;
     let [first, last] = hazard.periods();
     let (mut notes, mut warnings) = (Vec::new(), Vec::new());
     for (state, given) in LimitState::ALL.into_iter().zip([&mut table.sld, &mut table.slv, &mut table.slc]) {
@@ -120,7 +126,7 @@ pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
         say!("{warning}; state ag_unit", "{warning}; dichiarare ag_unit", warning)
     }));
     let nodes = nodes(&hazard, site.nominal_life * site.use_coefficient);
-    Ok(Some(FromGrid { file, notes, nodes, warnings }))
+    Ok(FromGrid { file, notes, nodes, warnings })
 }
 
 /// The nodes around the site, with their weights and numbers of each limit state; `reference` is `V_R`
