@@ -29,6 +29,32 @@ fn only_slv_is_raised_unless_stated() {
     assert!(with.passed && !without.passed);
 }
 
+/// A raise by a rounding is no reason of a verdict. The longer the elastic branch, the less SLD raises.
+#[test]
+fn a_raise_by_a_rounding_is_not_told() {
+    let text = |a1: f64| {
+        format!(
+            "[geometry]\nmechanism = \"vertical_spanning\"\nheight = 3\nthickness = 0.25\nhinge_ratio = 0.5\n\
+             density = 1800\noverburden = 10e3\n[force_law]\na1 = {a1:?}\n[check]\n\
+             code = \"circolare-2019\"\nbefore_activation = \"law\"\nsoil = \"B\"\noverburden_mass = 0\n\
+             building = {{ storeys = 2, period = 0.3, height_ratio = 0.83 }}\n\
+             SLD = {{ ag = 0.06, F0 = 2.45, TC = 0.28, building_damping = 0.05 }}\n\
+             SLV = {{ ag = 0.50, F0 = 2.45, TC = 0.32, building_damping = 0.05 }}\n"
+        )
+    };
+    let slv = |a1: f64| displaced(positive(&checked(&text(a1)).unwrap()).checks.slv);
+    let [mut raised, mut own] = [0.001, 0.003];
+    assert!(told(&text(raised)).0.contains("raised by SLD"));
+    for _ in 0..50 {
+        let middle = f64::midpoint(raised, own);
+        *(if slv(middle).raised { &mut raised } else { &mut own }) = middle;
+    }
+    let found = slv(raised);
+    assert!(found.raised && found.zeta - found.ratio < 1e-12, "{found:?}");
+    let (headline, ..) = told(&text(raised));
+    assert!(!headline.contains("raised"), "{headline}");
+}
+
 #[test]
 fn the_verdict_names_its_target() {
     let text =

@@ -58,9 +58,9 @@ struct Known {
 
 const KNET: &[&str] = &["ew", "ns", "ud", "ew1", "ns1", "ud1", "ew2", "ns2", "ud2"];
 
-/// The formats in the order in which they are tried. CSMIP comes after GeoNet, volume 1, COSMOS and SMC, whose
-/// first lines may have the same words; AT2, known by two words anywhere in its header, comes after tables,
-/// whose title may have them too.
+/// The formats in the order in which they are tried. CSMIP comes after GeoNet, volume 1, COSMOS and SMC,
+/// whose first lines may have the same words; AT2, known by two words anywhere in its header, comes after
+/// tables, whose title may have them too.
 const TRIED: [Format; Format::ALL.len()] = {
     use Format::{
         Afad, At2, Cosmos, Csmip, Csv, Cwa, Esm, Fdsn, Geonet, Knet, KnetCsv, Numbers, Smc, Unam, Volume1,

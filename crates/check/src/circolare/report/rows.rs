@@ -19,6 +19,9 @@ use crate::words::ledger::Ledger;
 use crate::words::names::{Deciding, LimitState, Side, Sides};
 use crate::words::{Language, Sentence, fixed, joined, say};
 
+/// A raise by a smaller share of a ratio is a rounding \[-\].
+const ROUNDING: f64 = 1e-9;
+
 impl<'a> Checked<'a> {
     /// The verdict.
     pub(crate) fn verdict(self, code: Entry) -> Verdict<'a> {
@@ -109,7 +112,8 @@ impl<'a> Checked<'a> {
             for (state, check) in verdict.by_displacement() {
                 let governing = (governs.level, governs.side, governs.limit_state.state());
                 let is_told = *passed || (level, side, state) == governing;
-                if is_told && check.raised && check.ratio < self.statement.target {
+                let is_raised = check.zeta > (1.0 + ROUNDING) * check.ratio;
+                if is_told && is_raised && check.ratio < self.statement.target {
                     raised.push((check.ratio, state));
                 }
             }
