@@ -362,37 +362,3 @@ fn set_integrals(parameters: &mut Parameters, body: &BodyTable, loads: &[Load]) 
     p.loads = Some(loads.into());
     Ok(())
 }
-
-/// Writes a profile as keys of `[geometry]`, one a line.
-pub(super) fn profile_text(profile: &Profile) -> String {
-    let parts = profile.parts().iter().map(|part| {
-        let Part { base, height, thickness, width, outer, density } = part;
-        format!(
-            "{{ base = {base:?}, height = {height:?}, thickness = {thickness:?}, width = {width:?}, \
-             density = {density:?}, outer = {outer:?} }}"
-        )
-    });
-    let openings = profile.openings().iter().map(|opening| {
-        let Opening { base, height, width, hollow } = opening;
-        let hollow = hollow.map_or(String::new(), |Hollow { thickness, outer }| {
-            format!(", thickness = {thickness:?}, outer = {outer:?}")
-        });
-        format!("{{ base = {base:?}, height = {height:?}, width = {width:?}{hollow} }}")
-    });
-    let loads = profile.loads().iter().map(|load| {
-        let Load { force, height, inside, moving_mass, mass, thrust, thrust_lasts } = load;
-        let share = moving_mass.map_or(String::new(), |share| format!(", moving_mass = {share:?}"));
-        let mass = if *mass == 0.0 { String::new() } else { format!(", mass = {mass:?}") };
-        let lasts = if *thrust_lasts { ", thrust_lasts = true" } else { "" };
-        format!(
-            "{{ force = {force:?}, height = {height:?}, inside = {inside:?}{share}{mass}, \
-             thrust = {thrust:?}{lasts} }}"
-        )
-    });
-    let lists = [(PART, parts.collect::<Vec<_>>()), (OPENING, openings.collect()), (LOAD, loads.collect())];
-    let mut text = String::new();
-    for (key, items) in lists.into_iter().filter(|(_, items)| !items.is_empty()) {
-        text.extend([key, " = [", &items.join(", "), "]\n"]);
-    }
-    text
-}

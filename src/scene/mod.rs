@@ -17,9 +17,9 @@ mod parameter;
 mod schema;
 mod shocks;
 mod storeys;
+mod writing;
 
 use std::borrow::Cow;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use files::{FileError, TomlFile, check_value, read_text};
@@ -27,7 +27,7 @@ use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
 use crate::variables::{BooleanVariable, Mechanism, RealVariable};
-use crate::wall::{Bar, Kinematics, OF_RECTANGLE, Parameters, is_computable, usage};
+use crate::wall::{Kinematics, Parameters, usage};
 
 pub use crate::variables::GROUPS;
 pub use body::{BODIES, BodyTable, LoadTable, OF_BODY, OpeningTable, PartTable};
@@ -40,12 +40,11 @@ pub use parameter::{input_names, parameter_text, set_names};
 pub use shocks::{RecordProblem, RecordTable, Shocks, fingerprint};
 pub use storeys::{Floors, HeavyWall, LIGHT, StoreyTable, SupportsTable};
 
-use body::profile_text;
 pub use error::SceneError;
-use keys::{BAR, OF_BAR, TIE_GROUP};
 pub use parameter::{apply_group, apply_tables, check_limits};
 pub use schema::{parameter, parameters, variable};
 pub use storeys::read_floors;
+pub use writing::to_toml;
 
 /// A wall, the motion of its supports, and the length of the run.
 #[derive(Clone, Debug)]
@@ -308,91 +307,4 @@ fn name_of(file: &str) -> String {
     Path::new(file)
         .file_stem()
         .map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().replace(['_', '-'], " "))
-}
-
-/// Writes a scene file that reads as `scene`. `motion` is the text of its `[motion]` table, or empty.
-pub fn to_toml(scene: &Scene, motion: &str) -> String {
-    let mut text = String::new();
-    // writing to a String cannot fail
-    let _ = writeln!(text, "title = {}", quoted(&scene.title));
-    let _ = writeln!(text, "stop_time = {:?}\noutput_step = {:?}", scene.stop_time, scene.output_step);
-    if scene.thresholds != DEFAULT_THRESHOLDS {
-        let _ = writeln!(text, "thresholds = {:?}", scene.thresholds);
-    }
-    let inputs: Vec<_> = scene.inputs.iter().map(|input| format!("{:?}", input.variable().name)).collect();
-    let _ = writeln!(text, "inputs = [{}]", inputs.join(", "));
-    let parameters = &scene.parameters;
-    for (group, names) in GROUPS {
-        if group == TIE_GROUP && !parameters.further_ties.is_empty() {
-            for tie in parameters.ties() {
-                let _ = write!(text, "\n[[{group}]]\n{}", group_text(&parameters.tied_by(tie), group, names));
-            }
-        } else {
-            let _ = write!(text, "\n[{group}]\n{}", group_text(parameters, group, names));
-        }
-    }
-    text.extend(scene.floors.iter().map(Floors::to_toml));
-    if !motion.is_empty() {
-        let _ = write!(text, "\n[motion]\n{motion}");
-    }
-    text
-}
-
-/// Writes the parameters of a group; of the ties the first.
-fn group_text(parameters: &Parameters, group: &str, names: &[&str]) -> String {
-    let usages: Vec<_> = usage(parameters).collect();
-    // leaves out a parameter at its start value that has no effect beside the others, or that is computed
-    let is_left_out = |name: &str| {
-        let is_computed = is_computable(name);
-        usages.iter().any(|usage| usage.name == name && usage.is_start && (!usage.matters || is_computed))
-    };
-    let mut text = String::new();
-    if group == "geometry" && parameters.kinematics != Kinematics::default() {
-        let _ = writeln!(text, "{KINEMATICS} = {:?}", parameters.kinematics.name());
-    }
-    if let ("geometry", Some(profile)) = (group, &parameters.profile) {
-        text.push_str(&profile_text(profile));
-    }
-    // a bar whose numbers have been changed since is none
-    let tie = parameters.ties().next().filter(|tie| tie.weaker_part(parameters.width).is_some());
-    let bar = tie.and_then(|tie| tie.bar).filter(|_| group == TIE_GROUP);
-    text.extend(bar.map(|bar| format!("{BAR} = {{ {} }}\n", bar_text(&bar))));
-    for name in names {
-        match (&parameters.multilinear, *name) {
-            (Some(points), "force_law") => {
-                let _ = writeln!(text, "force_law = \"multilinear\"");
-                let points: Vec<_> = points.iter().map(|[u, f]| format!("[{u:?}, {f:?}]")).collect();
-                let _ = writeln!(text, "{POINTS} = [{}]", points.join(", "));
-            }
-            (_, name) if parameters.profile.is_some() && OF_RECTANGLE.contains(&name) => {}
-            (_, name) if is_left_out(name) || (bar.is_some() && OF_BAR.contains(&name)) => {}
-            _ => {
-                if let Some(value) = parameter_text(parameters, name) {
-                    let _ = writeln!(text, "{name} = {value}");
-                }
-            }
-        }
-    }
-    text
-}
-
-/// Writes the numbers of a bar as they stand in its table.
-fn bar_text(bar: &Bar) -> String {
-    let numbers = Bar::NUMBERS.iter().enumerate();
-    let given = numbers.filter_map(|(at, number)| Some(format!("{} = {:?}", number.key(), bar.get(at)?)));
-    given.collect::<Vec<_>>().join(", ")
-}
-
-/// Writes a text as a basic TOML string.
-fn quoted(text: &str) -> String {
-    let mut quoted = String::from('"');
-    for character in text.chars() {
-        match character {
-            '"' | '\\' => quoted.extend(['\\', character]),
-            c if c.is_control() => quoted.extend(format!("\\u{:04X}", u32::from(c)).chars()),
-            c => quoted.push(c),
-        }
-    }
-    quoted.push('"');
-    quoted
 }
