@@ -70,16 +70,14 @@ const TRIED: [Format; Format::ALL.len()] = {
 
 impl Format {
     fn known(self) -> Known {
-        fn known(
-            name: &'static str,
-            description: &'static str,
-            endings: &'static [&'static str],
-            states_direction: bool,
-            recognises: Recognises,
-            parse: Parse,
-        ) -> Known {
-            Known { name, description, endings, states_direction, recognises, parse }
-        }
+        let known = |name, description, endings, states_direction, recognises, parse| Known {
+            name,
+            description,
+            endings,
+            states_direction,
+            recognises,
+            parse,
+        };
         match self {
             Self::Esm => known("esm", "ESM/ITACA", &["asc"], true, esm::recognises, esm::parse),
             Self::Geonet => {
