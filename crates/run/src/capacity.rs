@@ -10,7 +10,7 @@
 //! # Ok::<(), rocking_wall::wall::ParameterError>(())
 //! ```
 
-use report::palette::{AMBER, BLUE, DARK_GREY, GREEN, PURPLE, RED};
+use report::palette::{AMBER, BLUE, DARK_GREY, GREEN, Mark, PURPLE, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use report::table::{Digits, Table};
 use rocking_wall::scene;
@@ -136,7 +136,10 @@ pub fn plot(curves: &[Curve], secants: Vec<(String, (f64, f64))>) -> Plot {
 pub fn with_curve(mut plot: Plot, curve: Option<&scene::Curve>) -> Plot {
     let Some(curve) = curve.filter(|curve| !curve.points.is_empty()) else { return plot };
     let points = curve.points.iter().map(|point| (1000.0 * point[0].abs(), point[1].abs() / 1000.0));
-    let (name, line) = (format!("as given: {}", curve.note()), Series::stroke(RED, 1.6, points.collect()));
-    plot.series.push(Series { name, look: Look::Dotted, ..line });
+    // a legend has room for the points and the largest deviation alone
+    let note = curve.note();
+    let short = note.split(';').next().and_then(|first| first.split(" of the largest").next());
+    let (name, look) = (format!("as given: {}", short.unwrap_or_default()), Look::Marks(Mark::Circle));
+    plot.series.push(Series { name, look, ..Series::stroke(RED, 2.0, points.collect()) });
     plot
 }
