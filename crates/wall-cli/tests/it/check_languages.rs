@@ -104,6 +104,20 @@ fn variants() -> Vec<(&'static str, String)> {
     ]
 }
 
+/// The scenes of the project that are checked.
+fn shipped() -> Vec<(&'static str, String)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
+    let parapet = [format!("{folder}/checked_parapet.toml").into()];
+    let mechanisms = fs::read_dir(format!("{folder}/mechanisms")).unwrap();
+    let shipped: Vec<_> = mechanisms.map(|entry| entry.unwrap().path()).chain(parapet).collect();
+    assert!(shipped.len() >= 5, "{shipped:?}");
+    let named = |path: std::path::PathBuf| {
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        (&*name.leak(), fs::read_to_string(path).unwrap())
+    };
+    shipped.into_iter().map(named).collect()
+}
+
 #[test]
 fn reports_have_one_language() {
     let folder = folder("report_languages");
@@ -151,15 +165,7 @@ fn reports_have_one_language() {
     ];
     fs::write(folder.join("before.toml"), TIED.replace("0.016", "0.008")).unwrap();
     let mut variants = variants();
-    let folder_of_scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
-    let parapet = [format!("{folder_of_scenes}/checked_parapet.toml").into()];
-    let mechanisms = fs::read_dir(format!("{folder_of_scenes}/mechanisms")).unwrap();
-    let shipped: Vec<_> = mechanisms.map(|entry| entry.unwrap().path()).chain(parapet).collect();
-    assert!(shipped.len() >= 5, "{shipped:?}");
-    variants.extend(shipped.into_iter().map(|path| {
-        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        (&*name.leak(), fs::read_to_string(path).unwrap())
-    }));
+    variants.extend(shipped());
     let scenes = scenes.into_iter().chain(examples.iter().map(|(name, scene)| (*name, &**scene)));
     let scenes: Vec<_> = scenes.chain(variants.iter().map(|(name, scene)| (*name, &**scene))).collect();
     assert!(scenes.len() >= 48, "{}", scenes.len());
