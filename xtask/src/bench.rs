@@ -10,7 +10,9 @@ use crate::python::Environment;
 /// The measurements of the peers.
 pub(crate) const PEERS: &str = "fmu_out/peers.csv";
 /// The tools, by their names in the table.
-const TOOLS: [&str; 6] = [OURS, "ode_solvers", "diffsol", OPENSEES, "numba", "SciPy"];
+const TOOLS: [&str; 8] = [OURS, "ode_solvers", "diffsol", OPENSEES, "numba", "SciPy", "JAX", "diffrax"];
+/// The locks that pin them.
+const LOCKS: [&str; 3] = ["tests/peers/Cargo.lock", "xtask/locks/opensees.lock", "xtask/locks/peers.lock"];
 const OURS: &str = "rocking-wall";
 const OPENSEES: &str = "OpenSeesPy";
 /// End of the settings of runs in a batch.
@@ -24,8 +26,10 @@ const GOOD_PEAK: f64 = 1e-3;
 /// An environment, and the tools that run in it by their names for the script and in the table.
 type Peers = (&'static str, &'static [(&'static str, &'static str)]);
 
-const PYTHON: [Peers; 2] =
-    [("opensees", &[("opensees", OPENSEES)]), ("peers", &[("numba", "numba"), ("scipy", "SciPy")])];
+const PYTHON: [Peers; 2] = [
+    ("opensees", &[("opensees", OPENSEES)]),
+    ("peers", &[("numba", "numba"), ("scipy", "SciPy"), ("jax", "JAX"), ("diffrax", "diffrax")]),
+];
 
 /// The paths whose instructions are counted, by their names for the benchmark.
 const PATHS: [&str; 9] = [
@@ -107,8 +111,9 @@ fn instructions(binary: &str, path: &str, runs: u32) -> Result<(u64, f64)> {
 /// Compares with the peers on walls 2, 5 and 6 of the paper's Table 5, under a record or the project's own
 /// motion.
 ///
-/// Returns a table, of each scene `OpenSeesPy` at the record's step and each tool's fastest good setting, and
-/// prints it with those whose peak alone is good. It names a peer that cannot be installed or fails.
+/// Returns the machine, the versions and a table: of each scene `OpenSeesPy` at the record's step and each
+/// tool's fastest good setting. Prints it with those whose peak alone is good. It names a peer that cannot be
+/// installed or fails.
 pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let folder = target().join("peers");
     remove_folder(&folder)?;
@@ -130,7 +135,9 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     let mut text = read(folder.join("rows.csv"))?;
     let mut rows: Vec<Measured> = text.lines().skip(1).filter_map(Measured::parse).collect();
     rows.sort_by_key(|row| row.scene);
-    let [table, printed] = [false, true].map(|with_peaks| report(&rows, &missing, with_peaks));
+    let conditions = conditions()?;
+    let [table, printed] =
+        [false, true].map(|with_peaks| conditions.clone() + &report(&rows, &missing, with_peaks));
     print!("{printed}");
     for (tool, reason) in &missing {
         // writing to a string does not fail
@@ -139,6 +146,23 @@ pub(crate) fn peers(record: Option<&str>) -> Result<String> {
     write(PEERS, text)?;
     println!("written {}", root().join(PEERS).display());
     Ok(table)
+}
+
+/// Names the processor, its threads, and the tools with the versions that their locks pin.
+fn conditions() -> Result<String> {
+    let processors = read("/proc/cpuinfo").unwrap_or_default();
+    let processor = processors.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    let processor = processor.map_or(std::env::consts::ARCH, |(_, name)| name);
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let locks = LOCKS.map(read).into_iter().collect::<Result<Vec<_>>>()?.join("\n");
+    let versions = TOOLS.map(|tool| {
+        let name = tool.to_lowercase();
+        let pins = [format!("name = \"{name}\"\nversion = \""), format!("\n{name}==")];
+        let pinned = pins.iter().find_map(|pin| locks.split_once(pin)?.1.split(['"', ' ']).next());
+        format!("{tool} {}", pinned.unwrap_or("of unknown version"))
+    });
+    let (first, others) = versions.split_at(TOOLS.len() / 2);
+    Ok(format!("{processor}, {threads} threads\n{},\n{}\n", first.join(", "), others.join(", ")))
 }
 
 fn in_python(name: &str, tools: &[(&str, &str)], folder: &Path) -> Result<()> {

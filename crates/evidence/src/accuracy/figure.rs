@@ -7,7 +7,7 @@
 //! assert!(plot(&SOLVERS, &[point], Some(1e-12), true).svg().contains("1e-9"));
 //! ```
 
-use report::palette::{AMBER, BLUE, DARK_GREY, GREEN, GREY, Mark, PURPLE, RED};
+use report::palette::{AMBER, BLUE, BROWN, DARK_GREY, GREEN, GREY, Mark, PURPLE, RED, TEAL};
 use report::plot::{Axis, Look, Plot, Scale, Series};
 
 /// Name, colour and mark of a solver or tool.
@@ -16,13 +16,15 @@ pub type Sign = (&'static str, &'static str, Mark);
 pub const SOLVERS: [Sign; 3] =
     [("exact", BLUE, Mark::Circle), ("adaptive", GREEN, Mark::Square), ("newmark", RED, Mark::Triangle)];
 /// The tools that a comparison may name.
-pub const TOOLS: [Sign; 6] = [
+pub const TOOLS: [Sign; 8] = [
     ("rocking-wall", BLUE, Mark::Circle),
     ("ode_solvers", GREEN, Mark::Square),
     ("diffsol", PURPLE, Mark::Diamond),
     ("numba", AMBER, Mark::Cross),
     ("OpenSeesPy", RED, Mark::Triangle),
     ("SciPy", DARK_GREY, Mark::Plus),
+    ("JAX", TEAL, Mark::TriangleDown),
+    ("diffrax", BROWN, Mark::Star),
 ];
 /// Smallest error that is drawn: smaller ones are rounding, and the logarithm stays finite.
 const FLOOR: f64 = 1e-17;
