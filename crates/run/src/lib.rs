@@ -42,6 +42,7 @@ pub mod page;
 pub mod parallel;
 pub mod polarity;
 pub mod record_facts;
+mod record_warning;
 pub mod records;
 pub mod rotations;
 pub mod sample;

@@ -12,6 +12,7 @@ use ground_motion::{
 use rocking_wall::scene::{LONGEST_TAIL, RecordTable, SceneError, Shocks};
 use toml::Spanned;
 
+pub use crate::record_warning::RecordWarning;
 use crate::selection::{self, ListedFile};
 pub use crate::selection::{Listed, Selection};
 
@@ -243,7 +244,7 @@ pub fn all_records(
     files: &[RecordFile],
     folder: &Path,
     study: &str,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<RecordWarning>,
 ) -> Result<Vec<NamedRecord>, SceneError> {
     let mut uses: BTreeMap<String, BTreeSet<&Path>> = BTreeMap::new();
     for RecordFile { path, .. } in files {
@@ -259,11 +260,10 @@ pub fn all_records(
         }
         let record = read(path, &options).map_err(refused)?;
         if record.is_vertical && !is_named {
-            let path = path.display();
-            warnings.push(format!("{path}: vertical, left out; name the file itself to use it"));
+            warnings.push(RecordWarning { path: path.clone(), of: None });
             continue;
         }
-        warnings.extend(record.check().warnings.iter().map(|w| format!("{}: {w}", path.display())));
+        warnings.extend(RecordWarning::all(path, record.check().warnings));
         let motion = match listed {
             Some(file) if own.factor != 1.0 => record.motion.checked_scaled(own.factor).map_err(|error| {
                 FileError::on_line(&file.list, file.line, format!("{}: {error}", path.display()))
@@ -280,7 +280,7 @@ pub fn all_records(
     for ((shocks, line), name) in entry.sequences.iter().zip(names) {
         let warn = |table: &RecordTable, record: &Record| {
             let file = folder.join(&table.record);
-            for warning in record.check().warnings.iter().map(|w| format!("{}: {w}", file.display())) {
+            for warning in RecordWarning::all(&file, record.check().warnings) {
                 if !warnings.contains(&warning) {
                     warnings.push(warning);
                 }

@@ -74,7 +74,9 @@ impl LoadedStudy {
             all.extend(found.into_iter().map(|wall| NamedWall { entry: place, ..wall }));
         }
         let files = record_files(&file.records, folder, &name)?;
-        let records = all_records(&file.records, &files, folder, &name, &mut warnings)?;
+        let mut of_records = Vec::new();
+        let records = all_records(&file.records, &files, folder, &name, &mut of_records)?;
+        warnings.extend(of_records.iter().map(ToString::to_string));
         inputs.extend(record_inputs(&file.records, files, folder));
         warnings.extend(open_hazard(&mut file, folder, &mut inputs)?);
         let compare = file.compare.take();

@@ -169,7 +169,10 @@ impl InStudies for Statement {
     }
 
     fn deciding(&self) -> Option<Box<dyn Code>> {
-        let informs = !self.records.named.is_empty() && !self.takes_runs();
-        informs.then(|| -> Box<dyn Code> { Box::new(Self { records: Records::default(), ..self.clone() }) })
+        let mut deciding = Self { informs: false, ..self.clone() };
+        if !self.takes_runs() {
+            deciding.records = Records::default();
+        }
+        Some(Box::new(deciding))
     }
 }

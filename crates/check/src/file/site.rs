@@ -12,6 +12,7 @@ use toml::Spanned;
 
 use crate::error::CheckError;
 use crate::words::Sentence;
+use crate::words::of_record::of_record;
 
 /// The records of a check: motions of the ground at the site.
 #[derive(Clone, Debug, Default)]
@@ -45,7 +46,7 @@ pub(super) fn read_records(
                        weights";
         return Err(place.error(table.span(), message).into());
     }
-    Ok(Records { named, files, warnings: warnings.into_iter().map(Sentence::same).collect() })
+    Ok(Records { named, files, warnings: warnings.iter().map(of_record).collect() })
 }
 
 /// The level of shaking of a limit state.

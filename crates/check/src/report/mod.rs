@@ -80,7 +80,7 @@ fn sheet_head(page: Page, verdict: &Verdict<'_>, origin: &Origin<'_>) -> Page {
     let mut warnings = list(&verdict.warnings, language);
     // what a reader of records says names files of the user
     let of_records =
-        records.warnings.iter().map(|warning| as_written(&records.without_folders(warning.of(language))));
+        records.warnings.iter().map(|warning| escaped(&records.without_folders(warning.of(language))));
     let of_records: Vec<_> = of_records.map(|warning| format!("<li>{warning}</li>\n")).collect();
     if !of_records.is_empty() {
         warnings = format!("{warnings}<ul>\n{}</ul>\n", of_records.concat());

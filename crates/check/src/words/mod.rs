@@ -12,6 +12,7 @@ pub(crate) mod formulas;
 pub(crate) mod ledger;
 pub(crate) mod markup;
 pub(crate) mod names;
+pub(crate) mod of_record;
 pub(crate) mod others;
 
 use std::fmt;

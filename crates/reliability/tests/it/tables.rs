@@ -246,7 +246,7 @@ fn the_summary_is_that_of_its_rows() {
     assert!(worst.split_once("</table>").unwrap().0.contains(">0.5<"));
 }
 
-/// Walls that are not checked, and hinges that the check has elsewhere than the runs, are told.
+/// Walls that are not checked, and hinges and bodies that the check has elsewhere than the runs, are told.
 #[test]
 fn what_the_numbers_are_not_of_is_told() {
     let walls = r#"
@@ -263,6 +263,13 @@ geometry.hinge_ratio = 0.5
 geometry.overburden = 5000
 check = { hinge = "least_alpha0", overburden_mass = 0 }
 [[walls]]
+name = "storey"
+geometry.part = [
+  { height = 1.5, thickness = 0.3, density = 1800 },
+  { height = 1.5, thickness = 0.25, density = 1800 },
+]
+check = { hinge_levels = [1.5] }
+[[walls]]
 name = "same"
 geometry.mechanism = "vertical_spanning"
 geometry.height = 3
@@ -274,10 +281,12 @@ geometry.hinge_ratio = 0.5
     let (path, Report { warnings, .. }) = run_reported("told", &loaded);
     let begin = [
         "1 wall: the runs have the hinge elsewhere than the check, wall \"strip\" at 0.5 h",
+        "1 wall: the check has another body than the runs, wall \"storey\": the wedge with the crack",
         "1 wall not checked, \"unstated\": thickness",
     ];
-    assert!(warnings.len() == 2 && warnings.iter().zip(begin).all(|(one, begin)| one.starts_with(begin)));
+    let told = warnings.iter().zip(begin).all(|(one, begin)| one.starts_with(begin));
+    assert!(told && warnings.len() == 3, "{warnings:#?}");
     let walls: std::collections::BTreeSet<_> =
         rows(&path.join(FILES[0])).into_iter().map(|row| row["wall"].clone()).collect();
-    assert_eq!(walls.into_iter().collect::<Vec<_>>(), ["same", "strip"]);
+    assert_eq!(walls.into_iter().collect::<Vec<_>>(), ["same", "storey", "strip"]);
 }

@@ -171,7 +171,9 @@ impl Section<'_> {
                 self.canvas.arrow("load", at, [0.0, -ARROW]);
                 if few {
                     let text = format!("{} {} {}", kilonewtons(force), words.at, metres(height));
-                    self.label(false, at[1] - 0.4 * ARROW, text);
+                    // clear of the support of a strip
+                    let is_on_top = shape.hinge.is_some() && height == shape.height;
+                    self.label(false, at[1] - if is_on_top { ARROW } else { 0.4 * ARROW }, text);
                 }
             }
             if thrust != 0.0 {

@@ -7,6 +7,9 @@ use std::fs;
 use crate::command_line::{assert_has, content, folder, succeed};
 use scenes::{FACADE, FRACTIONS, LINEAR, SITE, SPECTRUM, STRIP, TIED, TIED_STRIP, TWO_TIES, WEDGE};
 
+/// Records that begin in the middle of the shaking.
+const CUT: &str = "files = [\"cut*.txt\"], unit = \"m/s2\", step = 0.02";
+
 /// Words that no Italian text of the program has.
 pub(crate) const ENGLISH: &str = "the of is are with and at from its not walls each taken before which \
                        without to for by has have under needs stands passed demand tie records spectrum \
@@ -94,6 +97,7 @@ fn variants() -> Vec<(&'static str, String)> {
         ("facade", FACADE.to_owned()),
         ("facade_each", FACADE.replace("[check]\n", "[check]\nresultants = \"each\"\n")),
         ("two_ties", TWO_TIES.to_owned()),
+        ("cut_records", SITE.replace("synthetic = { count = 3, duration = 10, step = 0.02 }", CUT)),
         ("wedge_between", WEDGE.to_owned()),
         ("wedge_at_its_end", WEDGE.replace("[5, 60]", "[5, 6]")),
         ("tied_strip", TIED_STRIP.to_owned()),
@@ -163,12 +167,17 @@ fn reports_have_one_language() {
         ("of_points", &of_points),
         ("on_a_floor", &on_a_floor),
     ];
+    // shaking that begins and ends at its peak
+    for (name, rate) in [("cut1.txt", 0.2), ("cut2.txt", 0.3), ("cut3.txt", 0.4)] {
+        let samples = (0..500).map(|step| format!("{:.6}\n", (rate * f64::from(step)).cos()));
+        fs::write(folder.join(name), samples.collect::<String>()).unwrap();
+    }
     fs::write(folder.join("before.toml"), TIED.replace("0.016", "0.008")).unwrap();
     let mut variants = variants();
     variants.extend(shipped());
     let scenes = scenes.into_iter().chain(examples.iter().map(|(name, scene)| (*name, &**scene)));
     let scenes: Vec<_> = scenes.chain(variants.iter().map(|(name, scene)| (*name, &**scene))).collect();
-    assert!(scenes.len() >= 48, "{}", scenes.len());
+    assert!(scenes.len() >= 49, "{}", scenes.len());
     for (name, scene) in scenes {
         fs::write(folder.join("scene.toml"), scene).unwrap();
         for (language, others) in [("it", ENGLISH), ("en", ITALIAN)] {
@@ -185,6 +194,7 @@ fn reports_have_one_language() {
         }
     }
     assert_has(&content(&folder, "torn-it.html"), &["la barra (fragile)", "Area della sezione della barra"]);
+    assert_has(&content(&folder, "cut_records-it.html"), &["manca l'inizio?", "manca la fine?"]);
     // the runs rock as the scene does
     let said = "Nelle verifiche statiche la parete oscilla solo verso u &gt; 0, verso l'esterno.";
     assert_has(&content(&folder, "site-it.html"), &[said]);

@@ -52,7 +52,8 @@ impl SideVerdict {
     /// [`CheckError`] of a wall or a demand that has no check.
     pub(crate) fn new(case: &Case<'_>, sign: f64) -> Result<Self, CheckError> {
         let AtHinge { curve, checks } = by_rule(case, sign, case.rule, hinge::FINE)?;
-        let is_tied = curve.tie().is_some();
+        let informs = case.statement.informs;
+        let is_tied = informs && curve.tie().is_some();
         let untied = is_tied.then(|| by_rule(&case.untied(), sign, case.rule, hinge::FINE)).transpose()?;
         let untied = untied.map(|AtHinge { checks, .. }| Untied {
             slv: checks.slv.map(|check| check.zeta),
@@ -67,7 +68,7 @@ impl SideVerdict {
                 others.push(Curve::new(case, sign, Some(hinge))?);
             }
         }
-        let sensitivity = sensitivity(case, sign);
+        let sensitivity = if informs { sensitivity(case, sign) } else { Vec::new() };
         let (least_alpha0, unsearched) = (None, None);
         let mut side = Self {
             curve,
@@ -81,7 +82,7 @@ impl SideVerdict {
             unsearched,
             others,
         };
-        if let Some(rule) = case.rule {
+        if let Some(rule) = case.rule.filter(|_| informs) {
             side.look_beside(case, sign, rule)?;
         }
         Ok(side)

@@ -1,6 +1,7 @@
 //! What is said of the numbers of a curve.
 
 mod body;
+mod strip;
 
 use std::f64::consts::TAU;
 
@@ -100,7 +101,7 @@ impl Curve {
                 ("g_0", 1e3 * tie.slack),
                 ("e_p", 1e3 * tie.ultimate.unwrap_or(-1e-3)),
                 ("y", tie.height),
-                ("φ", tie.lever),
+                ("φ_y", tie.lever),
             ]);
         }
         if let Some(at) = self.hinge {
@@ -212,7 +213,12 @@ impl Curve {
         let body = self.body();
         let (w, o) = (body.weight, body.overburden);
         let (k, formula) = if !self.is_plain() {
-            (body.geometric_stiffness, if body.is_strip() { "k_0" } else { "k_0 = K_θ/z_G²" })
+            let formula = match (body.is_strip(), ledger.number("K_1")) {
+                (false, _) => "k_0 = K_θ/z_G²",
+                (true, Some(_)) => "k_0 = 2 (K_1/h_1² + K_2/h_2²)",
+                (true, None) => "k_0",
+            };
+            (body.geometric_stiffness, formula)
         } else if body.mechanism == Mechanism::Parapet {
             (2.0 * (w + 2.0 * o) / body.height, "k_0 = 2 (W + 2 O)/h")
         } else {

@@ -69,6 +69,8 @@ pub struct Statement {
     pub(super) site_notes: Vec<Sentence>,
     /// The nodes of a grid around the site, with their numbers.
     pub(super) site_nodes: Vec<Sentence>,
+    /// Whether it also makes what only informs: other hinges, the wall without its ties, another a₁ or E.
+    pub(super) informs: bool,
 }
 
 impl Statement {
@@ -164,6 +166,7 @@ impl Statement {
             hinge_range,
             site_notes: Vec::new(),
             site_nodes: Vec::new(),
+            informs: true,
         })
     }
 

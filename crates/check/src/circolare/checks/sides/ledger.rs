@@ -124,6 +124,9 @@ impl SideVerdict {
         ledger.know(&[(&format!("Σ ({lever}) N_y"), 1e-3 * pulls.sum::<f64>())]);
         let tied = &*format!("{sum}{of_stiffness} K g/({pushed} e* d/u)");
         ledger.begin("activation", "tie");
+        if !curve.has_several_ties() {
+            curve.tie().iter().for_each(|tie| add_lever(curve.body(), tie, ledger));
+        }
         let words = say! {
             "Multiplier of activation with the tie at its strength, without FC",
             "Moltiplicatore di attivazione con la catena alla resistenza, senza FC"
@@ -189,7 +192,6 @@ impl TieNumbers {
         let mm = Unit::MILLIMETRES;
         let Names { per_elongation, .. } = side.curve.names();
         ledger.begin("tie", "tie");
-        side.curve.tie().iter().for_each(|tie| add_lever(side.curve.body(), tie, ledger));
         let words = say!("The tie begins to pull at", "La catena inizia a tirare a");
         let engaged =
             Quantity::new("u_engaged", format!("u_g = g_0 {per_elongation}"), mm, self.engaged, words);
@@ -283,10 +285,10 @@ impl TieVerdict {
     }
 }
 
-/// Adds φ of a tie of a strip, by which it is stretched and pulls.
+/// Adds φ(y) of a tie of a strip, by which it is stretched and pulls.
 fn add_lever(body: &Body, tie: &Tie, ledger: &mut Ledger) {
     if body.is_strip() {
-        let equation = if tie.height <= body.hinge_height { "φ = y/h_1" } else { "φ = (h − y)/h_2" };
+        let equation = if tie.height <= body.hinge_height { "φ_y = y/h_1" } else { "φ_y = (h − y)/h_2" };
         let words = say!("Displacement of the tie over u", "Spostamento della catena su u");
         ledger.add(Quantity::new("", equation, Unit::NONE, tie.lever, words));
     }

@@ -3,7 +3,7 @@
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{COMPUTED, Load, Parameters};
 
-use super::{OfSide, gives};
+use super::{OfSide, gives, strip};
 use crate::circolare::curve::set_back::{Contact, standing};
 use crate::circolare::curve::{Curve, level};
 use crate::circolare::statement::resultants::Resultants;
@@ -41,7 +41,7 @@ impl Curve {
     /// The names of its terms in formulas.
     pub(in crate::circolare) fn names(&self) -> Names {
         let [lever, per_elongation, slope] = match (self.body().is_strip(), self.is_plain()) {
-            (true, _) => ["2 φ", "1/φ", "2 φ²"],
+            (true, _) => ["2 φ_y", "1/φ_y", "2 φ_y²"],
             (false, true) => ["2 y/h", "h/(2 y)", "(2 y/h)²"],
             (false, false) => ["y/z_G", "z_G/y", "(y/z_G)²"],
         };
@@ -55,7 +55,7 @@ impl Curve {
         let words = say!("Weight of the masonry", "Peso della muratura");
         ledger.add(Quantity::new("weight", "W", unit, self.body().weight, words));
         if self.body().is_strip() {
-            self.add_strip(ledger);
+            self.add_strip(of, ledger);
         } else {
             self.add_moments(of, ledger);
         }
@@ -107,9 +107,32 @@ impl Curve {
                 },
             ),
         };
-        ledger.add(Quantity::new("e_star", "e*", Unit::NONE, self.e_star, words).at("[C8.7.1.5]"));
+        let put = if self.e_star == 1.0 { String::new() } else { e_star(&self.resultants(of)) };
+        let formula = if put.is_empty() { "e*" } else { "e* = (Σ P δ)²/(Σ P Σ P δ²)" };
+        let own = Quantity::new("e_star", formula, Unit::NONE, self.e_star, words).at("[C8.7.1.5]");
+        ledger.add(own.with_numbers(put));
         let other = (other != self.e_star).then_some(other);
         ledger.add(Quantity::new("other_e_star", symbol, Unit::NONE, other, told).at("[C8.7.1.5]"));
+    }
+
+    /// The resultants with their δ where there are several; none beside an overburden of a strip.
+    fn resultants(&self, of: OfSide<'_>) -> Vec<[f64; 2]> {
+        let is_each = of.statement.table.resultants == Resultants::Each;
+        if !self.body().is_strip() {
+            let at_height = |own: Term| [own.moving, own.height / self.body().centroid_height];
+            let loads = self.terms(of).into_iter().map(at_height);
+            return [[1e-3 * self.body().weight, 1.0]].into_iter().chain(loads).collect();
+        }
+        let terms = strip::terms(self.body(), of);
+        if is_each {
+            return terms.iter().map(|own| [own.moving, own.phi]).collect();
+        }
+        let of_body = |is_lower: bool| {
+            let own = terms.iter().filter(|own| own.is_lower == is_lower);
+            let weight: f64 = own.clone().map(|own| own.moving).sum();
+            [weight, own.map(|own| own.moving * own.phi).sum::<f64>() / weight]
+        };
+        if terms.is_empty() { Vec::new() } else { [true, false].map(of_body).to_vec() }
     }
 
     /// Adds the moments of one body about its toe, and what they are at the height of u.
@@ -168,22 +191,42 @@ impl Curve {
     }
 
     /// Adds the work of weights, thrusts and inertial forces of a strip, per unit of u.
-    fn add_strip(&self, ledger: &mut Ledger) {
-        let (body, unit) = (self.body(), Unit::KILONEWTONS);
+    fn add_strip(&self, of: OfSide<'_>, ledger: &mut Ledger) {
+        let (body, unit, terms) = (self.body(), Unit::KILONEWTONS, strip::terms(self.body(), of));
+        let twice = |sum: String| if sum.is_empty() { sum } else { format!("2 ({sum})") };
         let words = say!("Height of the hinge", "Quota della cerniera");
         ledger.add(Quantity::new("", "h_1", Unit::METRES, body.hinge_height, words));
         let words = say! {
-            "Work of the inertial forces for α = 1, twice, per unit of u",
-            "Doppio del lavoro delle forze d'inerzia per α = 1, per unità di u"
+            "Work of the inertial forces for α = 1, twice, per unit of u; `φ`: displacements",
+            "Doppio del lavoro delle forze d'inerzia per α = 1, per unità di u; `φ`: spostamenti"
         };
         let work = Quantity::new("", "F_E = 2 Σ (P + Q) φ", unit, self.pushed_weight, words);
-        ledger.add(work.with_numbers(""));
+        ledger.add(work.with_numbers(twice(products(terms.iter().map(|own| [own.moving, own.phi])))));
         let words = say! {
-            "Work of weights and thrusts, twice, per unit of u: force at u = 0",
-            "Doppio del lavoro di pesi e spinte, per unità di u: forza a u = 0"
+            "Work of weights and thrusts, twice, per unit of u: force at u = 0; `ρ`: rises",
+            "Doppio del lavoro di pesi e spinte, per unità di u: forza a u = 0; `ρ`: innalzamenti"
         };
         let force = Quantity::new("", "F_act = 2 (Σ P ρ − Σ H φ)", unit, self.acting_force, words);
-        ledger.add(force.with_numbers(""));
+        let weights = terms.iter().map(|own| [own.force, own.rho]);
+        let sum = products(weights.chain(terms.iter().map(|own| [-own.thrust, own.phi])));
+        let is_edge = gives(self.acting_force, body.strength.of(of.side.sign()));
+        ledger.add(force.with_numbers(if is_edge { twice(sum) } else { String::new() }));
+        if terms.is_empty() {
+            return;
+        }
+        let (h1, moments) = (body.hinge_height, Unit::KILONEWTON_METRES);
+        let levers = terms.iter().map(|own| [own.force, if own.is_lower { own.height } else { h1 }]);
+        let upper = terms.iter().filter(|own| !own.is_lower).map(|own| [own.force, own.height - h1]);
+        let value = |pairs: &mut dyn Iterator<Item = [f64; 2]>| 1e3 * pairs.map(|[a, b]| a * b).sum::<f64>();
+        let words = say! {
+            "What the weights lose of the moment of the lower body per unit of its rotation",
+            "Riduzione del momento del corpo inferiore per unità della sua rotazione"
+        };
+        let lower = Quantity::new("", "K_1 = Σ P min(z; h_1)", moments, value(&mut levers.clone()), words);
+        ledger.add(lower.with_numbers(products(levers)));
+        let words = say!("The same of the upper body", "Lo stesso del corpo superiore");
+        let of_upper = Quantity::new("", "K_2 = Σ P (z − h_1)", moments, value(&mut upper.clone()), words);
+        ledger.add(of_upper.with_numbers(products(upper)));
     }
 
     /// Adds the force at u = 0 of one body: that of the edges, and that of hinges that are set back.
@@ -279,6 +322,18 @@ fn arm(parameters: &Parameters, sign: f64) -> f64 {
         None => 0.5 * (outer + inner),
     };
     if sign > 0.0 { x - outer } else { inner - x }
+}
+
+/// e* of resultants with their δ, [C8.7.1.5]; empty of none.
+fn e_star(resultants: &[[f64; 2]]) -> String {
+    let all = resultants.iter().filter(|[weight, _]| *weight != 0.0);
+    let squares: Vec<_> =
+        all.map(|[weight, delta]| format!("{} · {}²", shown(*weight), shown(*delta))).collect();
+    if squares.is_empty() {
+        return String::new();
+    }
+    let (sum, weight) = (products(resultants.iter().copied()), resultants.iter().map(|own| own[0]).sum());
+    format!("({sum})²/[{} ({})]", shown(weight), squares.join(" + "))
 }
 
 /// Products of two numbers, added up; those with a 0 are left out.
