@@ -156,9 +156,10 @@ class Study:
 
     def to_toml(self, path: str | PathLike[str]) -> None:
         """Writes a study that was made of parts as a study file, for `wall study ida` and for colleagues: the
-        same results to the last bit. Its records are in the folder `PATH_records` beside it, as numbers in
-        text files of their names, sequences as a file for each shock, whose names they then go by. Other
-        files that it names, such as that of a hazard, stay where they are, by their absolute paths.
+        same results to the last bit, where sequences are its last records. The records are in the folder
+        `PATH_records` beside it, as numbers in text files of their names. A sequence has a file for each
+        shock, goes by the names of these, and comes after the other records. Other files that the study
+        names, such as that of a hazard, stay where they are, by their absolute paths.
 
         Raises `FileExistsError` for a file that exists, `ValueError` for what a study file cannot hold:
         walls on storeys, records with several steps, names that are not those of files.
