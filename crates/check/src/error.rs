@@ -36,8 +36,8 @@ pub enum CheckError {
 /// What a check has to add about a wall that falls by its own loads.
 fn falls(error: &ParameterError) -> &'static str {
     if matches!(error, ParameterError::Overturns { .. }) {
-        "; the body falls at rest: its α0 and d_0 are below 0 and it has ζ_E = 0, also with a tie, which \
-         does not count in d_0 (C8.7.1.2.1.6)"
+        "; the body falls at rest: without a tie its α0 and d_0 are below 0. d_0 counts no tie \
+         (C8.7.1.2.1.6), so that ζ_E by displacement is 0 also with one"
     } else {
         ""
     }

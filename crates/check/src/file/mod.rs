@@ -26,7 +26,8 @@ use site::{RecordReader, Records, read_records};
 /// What a file with a table `[check]` has beside its wall or walls.
 const KEYS: &[&str] = &["title", "check", "report"];
 
-/// Whether a table may name files. A page in a browser has none, and leaves their readers out.
+/// Whether files can be read. The playground has none. It leaves their readers out, and with the reader of a
+/// grid also that of its lines in the table.
 pub(crate) const HAS_FILES: bool = cfg!(not(target_arch = "wasm32"));
 /// Largest grid of the hazard that is read.
 const MAX_GRID_BYTES: u64 = 64 << 20;

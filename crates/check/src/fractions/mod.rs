@@ -148,7 +148,7 @@ impl Statement {
                 statement.spectrum = Some(Demand::of_points(in_si.collect(), place)?);
             }
             (Some(SpectrumTable::File(_)), None) if !HAS_FILES => {
-                let message = "a page reads no file of a spectrum; give points [T, Sa]";
+                let message = "the playground reads no file of a spectrum; give points [T, Sa]";
                 return Err(CheckError::value(&["spectrum"], message));
             }
             (Some(SpectrumTable::File(name)), None) => {

@@ -50,7 +50,7 @@ pub(crate) fn fill(table: &mut CheckTable, folder: &Path) -> Result<Option<FromG
     match table.site.clone() {
         None => Ok(None),
         Some(_) if !HAS_FILES => {
-            let message = "a page reads no grid; state ag, F0 and TC of each limit state";
+            let message = "the playground reads no grid; state ag, F0 and TC of each limit state";
             Err(CheckError::value(&["site"], message))
         }
         Some(site) => from_grid(table, &site, folder).map(Some),
