@@ -125,7 +125,7 @@ impl Unit {
         use RealVariable as V;
         let Inputs { bottom, top, drift, .. } = &self.inputs;
         for (of, Input { value, rate, .. }) in [(V::ABottom, bottom), (V::ATop, top), (V::Drift, drift)] {
-            // a value was checked when it was set
+            // a value without a rate was checked when it was set
             if *rate != 0.0 {
                 check_real(of.variable(), value + rate * step.duration)?;
             }

@@ -95,7 +95,7 @@ impl Curve {
         told.map(String::as_str).collect::<Vec<_>>().join("; ")
     }
 
-    /// Marks these parameters as those of an oscillator; without the points of its curve.
+    /// Returns what says that these parameters are those of an oscillator, without the points of its curve.
     ///
     /// # Errors
     /// [`ParameterError`] of parameters that make no wall.
@@ -131,7 +131,7 @@ impl Curve {
     }
 }
 
-/// Returns the warnings of a wall whose force law is of a curve, if it is. No oscillator has rotations.
+/// Returns the warnings of a wall; that of large rotations is none of an oscillator, which does not rotate.
 pub fn warnings_of<'a>(wall: &'a Wall, curve: Option<&Curve>) -> impl Iterator<Item = &'a Warning> {
     let is_of_oscillator = curve.is_some_and(|curve| curve.is_of_oscillator);
     let is_told =

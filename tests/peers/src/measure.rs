@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::problem::Problem;
 
-/// Runs after the warm-up: so many and for [`SHORTEST`], but none after [`PATIENCE`].
+/// Runs after the warm-up: at least so many and for [`SHORTEST`], but none begins after [`PATIENCE`].
 const RUNS: usize = 25;
 /// Disturbances of the machine last milliseconds.
 const SHORTEST: Duration = Duration::from_millis(100);

@@ -109,7 +109,7 @@ pub trait InStudies {
         None
     }
 
-    /// The same statements without records that only inform; `None` where there are none.
+    /// The same statements without what only informs; `None` where nothing does.
     fn deciding(&self) -> Option<Box<dyn Code>> {
         None
     }

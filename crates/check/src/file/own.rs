@@ -12,7 +12,7 @@ use super::CheckFile;
 /// [`CheckFile::parse_with`].
 ///
 /// # Errors
-/// The assignment that is none.
+/// The assignment that is not NAME=VALUE, or that TOML does not have.
 pub fn with_assignments(text: &str, set: &[String]) -> Result<String, String> {
     let mut lines = vec![text.to_owned()];
     for assignment in set {

@@ -34,8 +34,8 @@ struct Drawing<'a> {
     svg: String,
 }
 
-/// The figure, with what its marks mean. A body of parts has a view. One above a level of another that is
-/// drawn says where its heights count from \[m\].
+/// The figure, with what its marks mean. `view` is that of a body of parts. A body above a `level` \[m\] of
+/// another one that is drawn says that its heights count from there.
 pub(crate) fn figure(
     of: &Wall,
     parameters: &Parameters,

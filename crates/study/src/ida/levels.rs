@@ -74,7 +74,7 @@ fn check_range(
     Err(IdaError::Levels { name, value: shown(value), limit })
 }
 
-/// What the runs of a study are over the intensity.
+/// How the runs of a study lie over the intensity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(from = "LayoutKeys", into = "LayoutKeys")]
 pub enum Layout {
@@ -113,7 +113,7 @@ impl From<LayoutKeys> for Layout {
 }
 
 impl Levels {
-    /// Returns what the runs are over the intensity.
+    /// Returns how the runs lie over the intensity.
     pub fn layout(&self) -> Layout {
         match self {
             Self::Cloud { .. } => Layout::Cloud,

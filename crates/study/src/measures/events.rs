@@ -11,7 +11,7 @@ const RECORD: &str = "record";
 const COLUMNS: [(&str, &str, f64); 2] =
     [("magnitude", "magnitude", 10.0), ("distance_km", "distance", 20_000.0)];
 
-/// What columns are called, in small letters, that may be meant to be these, and how they begin.
+/// Other names of these columns, in small letters: the first as a whole, the others as beginnings of names.
 const MEANT: [[&str; 4]; 2] = [["m", "mag", "mw", "ml"], ["r", "dist", "rjb", "rrup"]];
 
 /// Magnitudes and distances of records.

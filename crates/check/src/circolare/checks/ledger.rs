@@ -238,7 +238,7 @@ impl DisplacementCheck {
         let force = self.tie.map_or(0.0, |tie| tie.force);
         let Names { pushed, lever, .. } = curve.names();
         ledger.know(&[("N", 1e-3 * force)]);
-        // where a tie breaks it still holds
+        // just before d: a tie that breaks there still holds
         let u = self.d / curve.d_per_u * (1.0 - 1e-12);
         let pulls = curve.ties().map(|tie| tie.pull * tie::force(tie, u));
         let pull: f64 = pulls.sum();

@@ -45,7 +45,7 @@ impl Checked<'_> {
         ];
         notes.extend(self.statement.site_notes.iter().cloned());
         for note in self.levels().into_iter().flat_map(Self::notes_of_level) {
-            // what is of all levels alike once
+            // a note that several levels have is told once
             if !notes.contains(&note) {
                 notes.push(note);
             }
