@@ -163,6 +163,11 @@ fn a_stepped_strip_has_the_constants_of_an_independent_program() {
     for (found, expected) in found.into_iter().zip(expected) {
         assert!((found - expected).abs() <= 6e-12 * expected, "{found} for {expected}");
     }
+    let facts = Wall::new(&strip).unwrap().facts();
+    let fact = |name| facts.iter().find(|fact| fact.name == name).map(|fact| fact.value);
+    assert_eq!(fact("support_weight_top"), Some(body.support_weights[1]));
+    assert_eq!(fact("drift_stiffness"), Some(body.drift_weight / body.height));
+    assert_eq!(fact("centroid_height"), None);
     // Newton and Euler for both bodies, u = 0.06 m under -5 m/s² of both supports
     let support = Support::rigid(-5.0);
     let mut simulation = Simulation::new(&strip, None, 0.0, support).unwrap();
@@ -174,6 +179,28 @@ fn a_stepped_strip_has_the_constants_of_an_independent_program() {
         (outputs.reactions.top, -2_661.220_686),
     ] {
         assert!((found - expected).abs() <= 6e-10 * expected.abs(), "{found} for {expected}");
+    }
+}
+
+/// The multiplier of a parapet of two unlike prisms, Σ W x / Σ W z about each toe; a rectangle states none.
+#[test]
+fn multipliers_of_a_stepped_parapet_follow_from_moments() {
+    let lower = Part { height: 1.6, thickness: [0.4; 2], density: 1900.0, ..PRISM };
+    let upper =
+        Part { base: 1.6, height: 1.4, thickness: [0.25; 2], outer: [0.15; 2], density: 1700.0, ..PRISM };
+    let fact = |parameters: &Parameters, name| {
+        let facts = Wall::new(parameters).unwrap().facts();
+        facts.iter().find(|fact| fact.name == name).map(|fact| fact.value)
+    };
+    let stepped = of_parts(&[lower, upper], &[], &[]);
+    let [below, above] = [1.6 * 0.4 * 1900.0, 1.4 * 0.25 * 1700.0];
+    let by_height = below * 0.8 + above * 2.3;
+    // the outer face is the toe of u > 0, which the upper prism stands 0.15 m behind
+    let wanted = [below * 0.2 + above * 0.275, below * 0.2 + above * 0.125].map(|by_arm| by_arm / by_height);
+    for (name, wanted) in ["static_multiplier", "static_multiplier_negative"].into_iter().zip(wanted) {
+        let found = fact(&stepped, name).unwrap();
+        assert!((found - wanted).abs() <= 8.0 * f64::EPSILON, "{name}: {found} for {wanted}");
+        assert_eq!(fact(&of_rectangle(), name), None);
     }
 }
 
