@@ -143,9 +143,24 @@ fn the_hinge_of_a_strip_of_parts_has_the_least_multiplier_of_all_heights() {
 fn ties_of_a_strip_hold_it_by_their_displacement() {
     for seed in 0..8 {
         let mut strip = Strip::numbered(seed);
+        let by_rule = |strip: &Strip, rule: &str| {
+            sides_in_json(&strip.scene().replace("[check]\n", &format!("[check]\nhinge = \"{rule}\"\n")))
+        };
+        let rules = ["least_alpha0", "worst"];
+        let without = rules.map(|rule| by_rule(&strip, rule));
         let (h, untied) = (strip.height(), sides_in_json(&strip.scene()));
         strip.ties = vec![[0.4 * h, 2e3], [0.55 * h, 3e3]];
         strip.ties.truncate(1 + usize::from(seed % 2 == 1));
+        for (rule, without) in rules.iter().zip(without) {
+            let with = by_rule(&strip, rule);
+            for (side, sign) in [("positive", 1.0), ("negative", -1.0)] {
+                let found = &with[side];
+                let h1 = number(found, &["hinge_ratio"]) * h;
+                near(number(found, &["activation", "alpha0"]), strip.alpha0(h1, sign), "alpha0 of a rule");
+                let zeta = number(found, &["untied", "SLV"]);
+                near(zeta, number(&without, &[side, "SLV", "zeta_E"]), "zeta_E without ties");
+            }
+        }
         let sides = sides_in_json(&strip.scene());
         assert!(assert_gives(&report_of_one(&strip.scene())) > 40, "{seed}");
         for (side, sign) in [("positive", 1.0), ("negative", -1.0)] {

@@ -6,8 +6,8 @@ use check::circolare::SideVerdict;
 use check::{CheckFile, Found, Language, Sought, find, read};
 use rocking_wall::scene::Scene;
 
-use crate::circolare::{PARAPET, checked, near};
-use crate::circolare_hinges::{displaced, facade, near_all, negative, parapet, positive};
+use crate::circolare::{PARAPET, checked, near, refuses, warns};
+use crate::circolare_hinges::{displaced, facade, near_all, negative, parapet, positive, strip};
 
 /// Examples 9 and 10: ties at the activation, and their required strength.
 #[test]
@@ -277,4 +277,52 @@ fn a_slack_tie_does_not_shorten_the_period_of_the_demand() {
     near(tight, 900.0 * 9.81 * (0.1 / std::f64::consts::TAU).powi(2), "the peak");
     // beyond 0.3 s S_d rises
     near(slack, at_the_end, "S_d at T_SLC");
+}
+
+/// What only informs stops no check: without the tie that breaks early `d_SLC` is below `d_SLV`, and with SLC
+/// alone the search for the least α0 meets hinges with which the tie cannot act.
+#[test]
+fn what_informs_stops_no_check() {
+    let of = |tie: &str| {
+        let text = facade(tie, "rocking = \"one_sided_positive\"");
+        text.replace("SLC = { ag", "SLC = { displacement = 0.05, ag")
+    };
+    refuses(&of(""), "SLC comes before SLV");
+    let outcome = checked(&of("tie_stiffness = 5e6\ntie_strength = 10e3")).unwrap();
+    let side = positive(&outcome);
+    near(displaced(side.checks.slv).zeta, 0.561834, "SLV, as of the example");
+    assert!(side.untied.is_none());
+
+    let text = held_strip("hinge = \"worst\"\nrocking = \"one_sided_positive\"");
+    let is_kept = |line: &&str| !["SLD", "SLV"].iter().any(|state| line.starts_with(state));
+    let text: Vec<_> = text.lines().filter(is_kept).collect();
+    let outcome = checked(&text.join("\n")).unwrap();
+    let side = positive(&outcome);
+    assert!(side.least_alpha0.is_none() && displaced(side.checks.slc).hinge.is_some());
+    warns(&text.join("\n"), "other hinges could not be searched: with the hinge at hinge_ratio = 0.1: ");
+}
+
+/// D with bars of 6 m near its top: with a hinge far below they have their strength late.
+fn held_strip(more: &str) -> String {
+    let bar = "tie = { at_activation = \"yield\", bar = { diameter = 0.016, length = 6, yield_stress = 235e6, \
+               ultimate_strain = 0.02, spacing = 3 } }";
+    let text = strip(0.03, "", &format!("before_activation = \"law\"\n{bar}\n{more}"));
+    text.replace("[force_law]", "[tie]\ntie_height = 3.0\ntie_side = \"both\"\n[force_law]")
+}
+
+/// Where a tie cannot act with some hinges of the range, the message says how to leave these out.
+#[test]
+fn a_tie_that_cannot_act_with_some_hinges_asks_for_another_range() {
+    let remedy = "or, where the hinge is searched, a hinge_range without this place";
+    for rule in ["least_alpha0", "worst"] {
+        let text = held_strip(&format!("hinge = \"{rule}\""));
+        // u_y = f_y L/(E φ), φ = (1 − 3/3.4)/(1 − 0.1)
+        let told = refuses(&text, "hinge_ratio = 0.1: at_activation = \"yield\" needs a stiff tie");
+        assert!(told.contains("u_y = 51.36 mm") && told.ends_with(remedy), "{told}");
+        let outcome = checked(&text.replace("[check]", "[check]\nhinge_range = [0.5, 0.9]")).unwrap();
+        assert!(positive(&outcome).activation.force > 0.0);
+    }
+    // a façade has no hinge between its ends
+    let soft = facade("tie_stiffness = 2e5\ntie_strength = 10e3", "tie.at_activation = \"yield\"");
+    assert!(!refuses(&soft, "needs a stiff tie").contains("hinge_range"));
 }

@@ -82,6 +82,15 @@ fn named_tie(curve: &Curve, index: usize) -> String {
     if curve.has_several_ties() { format!("with tie {} of the side: ", index + 1) } else { String::new() }
 }
 
+/// What else helps where the hinge of a strip is the reason: a tie far from it is stretched little.
+fn elsewhere(curve: &Curve) -> &'static str {
+    if curve.hinge.is_some() {
+        ", or, where the hinge is searched, a hinge_range without this place"
+    } else {
+        ""
+    }
+}
+
 /// Ties that are counted together have to hold until the last of them has its strength.
 fn hold_together(curve: &Curve) -> Result<(), CheckError> {
     let last = curve.ties().filter_map(Tie::strength_displacement).fold(0.0, f64::max);
@@ -90,7 +99,8 @@ fn hold_together(curve: &Curve) -> Result<(), CheckError> {
     let [breaks, last] = apart([tie.fracture_displacement().unwrap_or(0.0), last].map(|u| 1e3 * u), 4);
     let message = format!(
         "cannot count it: it is broken at u_r = {breaks} mm, before the last tie has its strength, at u_y = \
-         {last} mm; give it tie_ultimate or ultimate_strain, stiffen the last, or state \"none\""
+         {last} mm; give it tie_ultimate or ultimate_strain, stiffen the last, or state \"none\"{}",
+        elsewhere(curve)
     );
     Err(not_at_activation(&named_tie(curve, index), &message))
 }
@@ -114,7 +124,8 @@ fn strength_at_activation(curve: &Curve, index: usize, tie: &Tie) -> Result<f64,
         return refused(format!(
             "needs a stiff tie: this one has its strength at u_y = {yields} mm, beyond {SOFTEST} u_0 = \
              {limit} mm; state \"none\", or a tie with less N_y/K: a bar with less length or yield_stress, \
-             for its diameter does not change it"
+             for its diameter does not change it{}",
+            elsewhere(curve)
         ));
     }
     Ok(tie.pull * strength)

@@ -54,7 +54,8 @@ impl SideVerdict {
         let AtHinge { curve, checks } = by_rule(case, sign, case.rule, hinge::FINE)?;
         let informs = case.statement.informs;
         let is_tied = informs && curve.tie().is_some();
-        let untied = is_tied.then(|| by_rule(&case.untied(), sign, case.rule, hinge::FINE)).transpose()?;
+        // what only informs stops no check
+        let untied = is_tied.then(|| by_rule(&case.untied(), sign, case.rule, hinge::FINE).ok()).flatten();
         let untied = untied.map(|AtHinge { checks, .. }| Untied {
             slv: checks.slv.map(|check| check.zeta),
             slc: checks.slc.map(|check| check.zeta),
@@ -69,21 +70,20 @@ impl SideVerdict {
             }
         }
         let sensitivity = if informs { sensitivity(case, sign) } else { Vec::new() };
-        let (least_alpha0, unsearched) = (None, None);
         let mut side = Self {
             curve,
             checks,
-            least_alpha0,
+            least_alpha0: None,
             activation,
             tie,
             ties,
             untied,
             sensitivity,
-            unsearched,
+            unsearched: None,
             others,
         };
         if let Some(rule) = case.rule.filter(|_| informs) {
-            side.look_beside(case, sign, rule)?;
+            side.unsearched = side.look_beside(case, sign, rule).err().map(|error| error.to_string());
         }
         Ok(side)
     }
@@ -91,13 +91,7 @@ impl SideVerdict {
     /// Finds what the hinge of the least α0 gives, and the least favourable one.
     fn look_beside(&mut self, case: &Case<'_>, sign: f64, rule: Hinge) -> Result<(), CheckError> {
         let statement = case.statement;
-        let AtHinge { curve, checks } = match by_rule(case, sign, Some(Hinge::LeastAlpha0), hinge::FINE) {
-            Err(error) if rule == Hinge::Given => {
-                self.unsearched = Some(error.to_string());
-                return Ok(());
-            }
-            found => found?,
-        };
+        let AtHinge { curve, checks } = by_rule(case, sign, Some(Hinge::LeastAlpha0), hinge::FINE)?;
         let finite = |zeta: f64| Some(zeta).filter(|zeta| zeta.is_finite());
         let found = self.least_alpha0.insert(LeastAlpha0 {
             alpha0: at_activation(&curve, statement)?.alpha0,
@@ -112,13 +106,7 @@ impl SideVerdict {
         let worst = match rule {
             Hinge::Worst => self.checks,
             _ if by_records => return Ok(()),
-            Hinge::LeastAlpha0 | Hinge::Given => match by_rule(case, sign, Some(Hinge::Worst), hinge::FINE) {
-                Ok(found) => found.checks,
-                Err(error) => {
-                    self.unsearched = Some(error.to_string());
-                    return Ok(());
-                }
-            },
+            Hinge::LeastAlpha0 | Hinge::Given => by_rule(case, sign, Some(Hinge::Worst), hinge::FINE)?.checks,
         };
         let Governing { check, zeta } = worst.governing(statement);
         found.worst = finite(zeta);
