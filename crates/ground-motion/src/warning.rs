@@ -11,7 +11,6 @@ const USUAL_STEP: [f64; 2] = [5e-4, 0.1];
 
 /// A sign that a record or a scaled motion is not ready for use.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
-#[non_exhaustive]
 pub enum Warning {
     /// Every sample is zero.
     #[error("every sample is 0")]
