@@ -306,3 +306,35 @@ fn a_computed_ratio_is_that_of_the_model() {
     // six digits
     assert!((shown / c_bar - 1.0).abs() < 5e-6, "{shown} for {c_bar}");
 }
+
+/// What parts and an opening weigh, by hand, each specific weight with the heights that have it.
+#[test]
+fn loads_of_parts_are_their_volumes() {
+    let text = "[geometry]\npart = [\n{ height = 3, thickness = 0.5, density = 1800, width = 2 },\n\
+                { height = 2, thickness = 0.4, density = 1600, width = 2 },\n]\n\
+                opening = [{ base = 1, height = 1.2, width = 0.8 }]\n\
+                [check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
+                SLV = { ag = 0.1, F0 = 2.4, TC = 0.32 }\n";
+    let said = text_of_one(text);
+    let g = 9.81;
+    let [lower, upper] = [1800.0 * g * 3.0 * 0.5 * 2.0, 1600.0 * g * 2.0 * 0.4 * 2.0].map(|w| 1e-3 * w);
+    let opening = 1e-3 * 1800.0 * g * 1.2 * 0.5 * 0.8;
+    let rows = [
+        ("Part from 0 to 3 m", lower),
+        ("Part from 3 to 5 m", upper),
+        ("Opening from 1 to 2.2 m", -opening),
+        ("Own weight W", lower + upper - opening),
+        ("Specific weight of the masonry from 0 to 3 m", 1.8 * g),
+        ("Specific weight of the masonry from 3 to 5 m", 1.6 * g),
+    ];
+    for (name, value) in rows {
+        let row: Vec<_> = said.lines().skip_while(|line| *line != name).take(3).collect();
+        let told = row.last().and_then(|cell| cell.split_once(" kN")).map(|(told, _)| told.replace('−', "-"));
+        // with four digits
+        let told: f64 = told.unwrap_or_else(|| panic!("{name} of {said}")).parse().unwrap();
+        assert!((told - value).abs() <= 6e-4 * value.abs(), "{name}: {told}, by hand {value}");
+    }
+    // parts that are alike share it
+    let alike = text_of_one(&text.replace("1600", "1800"));
+    assert_eq!(alike.matches("Specific weight of the masonry").count(), 1);
+}

@@ -105,8 +105,10 @@ fn of_opening(opening: &Opening, profile: &Profile, gravity: f64, language: Lang
         from = written(opening.base), to = written(opening.base + opening.height)
     };
     let how = say!("width {width} m", "larghezza {width} m", width = written(opening.width));
-    let parts = || profile.parts().to_vec();
-    let with = |openings| Profile::new(parts(), openings, Vec::new()).map_or(f64::NAN, |own| mass(&own));
+    let with = |openings| {
+        let own = Profile::new(profile.parts().to_vec(), openings, Vec::new());
+        mass(&own.expect("a profile is one with fewer openings"))
+    };
     let taken = with(vec![*opening]) - with(Vec::new());
     row(&words, how.markup(language), 1e-3 * gravity * taken, "kN", language)
 }
@@ -136,18 +138,25 @@ pub(super) fn materials(case: &Checked<'_>, language: Language) -> String {
     let (table_of_check, parameters) = (&case.statement.table, &case.parameters);
     let stated = || say!("stated", "dichiarato").markup(language);
     let mut rows = Vec::new();
-    let mut densities = match &case.lowest().parameters.profile {
-        Some(profile) => profile.parts().iter().map(|part| part.density).collect(),
-        None if parameters.mechanism == Mechanism::RigidBody => Vec::new(),
-        None => vec![parameters.density],
-    };
-    densities.sort_by(f64::total_cmp);
-    densities.dedup();
-    for density in densities {
-        let words = say!("Specific weight of the masonry", "Peso specifico della muratura");
+    let mut weigh = |which: Sentence, density: f64| {
+        let words =
+            say!("Specific weight of the masonry{which}", "Peso specifico della muratura{which}", which);
         let [rho, g] = [density, parameters.gravity].map(|value| language.stated(value));
         let how = format!("{} = {rho} · {g} · 10⁻³", formula("ρ g"));
         rows.push(row(&words, how, 1e-3 * density * parameters.gravity, "kN/m³", language));
+    };
+    match case.lowest().parameters.profile.as_deref().map(Profile::parts) {
+        Some([first, others @ ..]) if others.iter().all(|part| part.density == first.density) => {
+            weigh(Sentence::default(), first.density);
+        }
+        Some(parts) => {
+            for part in parts {
+                let [from, to] = [part.base, part.top()].map(written);
+                weigh(say!(" from {from} to {to} m", " da {from} a {to} m", from, to), part.density);
+            }
+        }
+        None if parameters.mechanism == Mechanism::RigidBody => {}
+        None => weigh(Sentence::default(), parameters.density),
     }
     if let Some(strength) = table_of_check.masonry_strength {
         let words = say!("Compressive strength f_m", "Resistenza a compressione f_m");
