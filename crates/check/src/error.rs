@@ -29,8 +29,15 @@ pub enum CheckError {
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The parameters of the wall.
+    // not #[from]: that would make it the cause, too, and who prints causes would tell it twice
     #[error("{_0}{}", falls(_0))]
-    Parameters(#[from] ParameterError),
+    Parameters(ParameterError),
+}
+
+impl From<ParameterError> for CheckError {
+    fn from(error: ParameterError) -> Self {
+        Self::Parameters(error)
+    }
 }
 
 /// What a check has to add about a wall that falls by its own loads.

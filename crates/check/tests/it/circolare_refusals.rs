@@ -1,6 +1,12 @@
 //! What a check by Circolare 7/2019 refuses, and what it warns of.
 
+use std::error::Error;
+
+use check::{CheckFile, read};
+use rocking_wall::scene::Scene;
+
 use crate::circolare::{PARAPET, checked, refuses};
+use crate::circolare_bodies::facade;
 
 const SITE: &str = "{ ag = 0.15, F0 = 2.45, TC = 0.32 }";
 
@@ -206,4 +212,16 @@ fn what_the_engineer_should_know_is_warned_of() {
     let weak = state("SLD", "").replace("0.15", "0.05");
     let quiet = checked(&format!("{PARAPET}{}", slv(&weak))).unwrap().warnings;
     assert!(quiet.is_empty(), "{quiet:?}");
+}
+
+/// A wall that falls by its own loads is told of once, with what the check adds.
+#[test]
+fn a_wall_that_falls_at_rest_is_told_of_once() {
+    let text = facade("thrust = 50e3", "");
+    let told = refuses(&text, "the body falls at rest: without a tie its α0 and d_0 are below 0");
+    assert_eq!(told.matches("falls at rest").count(), 1, "{told}");
+    let scene = Scene::parse("scene.toml", &text, ".".as_ref()).unwrap();
+    let code = read(&CheckFile::parse("scene.toml", &text).unwrap()).unwrap();
+    let error = code.check((&scene).into()).err().unwrap();
+    assert!(error.source().is_none() && told.contains(&error.to_string()), "{error}");
 }

@@ -36,6 +36,12 @@ impl Checked<'_> {
         above(crate::words::side(self.which(side)), self.stated_level())
     }
 
+    /// The heading of what belongs to the body above this level; empty where none is stated.
+    pub(super) fn heading(&self, language: Language) -> String {
+        let head = self.stated_level().map(|z| say!("Body above {z} m", "Corpo sopra {z} m", z));
+        head.map_or_else(String::new, |head| format!("<h3>{}</h3>\n", head.markup(language)))
+    }
+
     /// A sentence about this level, which it names where there are several.
     pub(super) fn of_level(&self, said: Sentence) -> Sentence {
         match self.stated_level().filter(|_| self.statement.hinge_levels.len() > 1) {
@@ -67,8 +73,7 @@ impl Checked<'_> {
         let (levels, lowest) = (self.levels(), self.lowest());
         let view = if levels.len() > 1 { View::Section } else { View::Whole };
         let figure = |level: &Self| {
-            let head = level.stated_level().map(|z| say!("Body above {z} m", "Corpo sopra {z} m", z));
-            let head = head.map_or_else(String::new, |head| format!("<h3>{}</h3>\n", head.markup(language)));
+            let head = level.heading(language);
             let above = level.stated_level().filter(|_| level.level != lowest.level);
             let figure = drawing::figure(&level.wall, &level.parameters, view, above, language);
             format!("<div>{head}{figure}</div>\n")

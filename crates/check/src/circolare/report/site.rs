@@ -94,9 +94,7 @@ pub(in crate::circolare) fn section(
 pub(super) fn at_wall(case: &Checked<'_>, language: Language) -> Result<String, CheckError> {
     let levels = case.levels();
     let at = |level: &&Checked<'_>| {
-        let head = level.stated_level().filter(|_| levels.len() > 1);
-        let head = head.map(|z| say!("Body above {z} m", "Corpo sopra {z} m", z).markup(language));
-        let head = head.map_or_else(String::new, |head| format!("<h3>{head}</h3>\n"));
+        let head = if levels.len() > 1 { level.heading(language) } else { String::new() };
         head + &at_level(level, language)
     };
     let tables: String = levels.iter().map(at).collect();
