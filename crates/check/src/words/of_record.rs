@@ -23,7 +23,11 @@ fn in_italian(warning: &Warning) -> String {
             "passo: {} s tra i campioni è insolito per un accelerogramma; i tempi sono in {}?",
             shown(*step),
             // a step that is warned of is far above this, or far below
-            if *step > 0.01 { "millisecondi, o numeri di campione" } else { "minuti, ore o giorni" }
+            if *step > 0.01 {
+                "millisecondi, o numeri di campione"
+            } else {
+                "minuti, ore, giorni o altra unità"
+            }
         ),
         Warning::Baseline { last, peak } => format!(
             "linea di base: alla fine il suolo ha {} m/s, con un massimo di {} m/s; è da correggere",
@@ -40,7 +44,7 @@ fn in_italian(warning: &Warning) -> String {
             )
         }
         Warning::Strength { peak } => format!(
-            "moto: un picco di {} g non è credibile; controllare la scala, e l'unità della sua PGA o ampiezza",
+            "moto: un picco di {} g non è credibile; controllare la scala, e l'unità di PGA o ampiezza",
             shown(peak / STANDARD_GRAVITY)
         ),
         Warning::MissingStart { part } => {
@@ -107,12 +111,12 @@ mod tests {
             (Warning::NoMotion, "ogni campione vale 0"),
             (Warning::Step { step: 20.0 }, "20 s tra i campioni è insolito"),
             (Warning::Step { step: 0.2 }, "in millisecondi, o numeri di campione?"),
-            (Warning::Step { step: 1e-5 }, "in minuti, ore o giorni?"),
+            (Warning::Step { step: 1e-5 }, "in minuti, ore, giorni o altra unità?"),
             (Warning::Baseline { last: 0.1, peak: 0.5 }, "0,1 m/s, con un massimo di 0,5 m/s"),
             (Warning::Unit { peak: 9.0, unit: Unit::StandardGravity, others }, "con m/s2 o cm/s2"),
             (
                 Warning::Strength { peak: 98.0665 },
-                "10 g non è credibile; controllare la scala, e l'unità della",
+                "10 g non è credibile; controllare la scala, e l'unità di PGA",
             ),
             (Warning::MissingStart { part: 0.5 }, "50 %"),
             (Warning::MissingTail { part: 0.5 }, "50 %"),

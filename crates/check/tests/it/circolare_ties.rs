@@ -304,8 +304,8 @@ fn what_informs_stops_no_check() {
 
 /// D with bars of 6 m near its top: with a hinge far below they have their strength late.
 fn held_strip(more: &str) -> String {
-    let bar = "tie = { at_activation = \"yield\", bar = { diameter = 0.016, length = 6, yield_stress = 235e6, \
-               ultimate_strain = 0.02, spacing = 3 } }";
+    let bar = "tie = { at_activation = \"yield\", bar = { diameter = 0.016, length = 6, \
+               yield_stress = 235e6, ultimate_strain = 0.02, spacing = 3 } }";
     let text = strip(0.03, "", &format!("before_activation = \"law\"\n{bar}\n{more}"));
     text.replace("[force_law]", "[tie]\ntie_height = 3.0\ntie_side = \"both\"\n[force_law]")
 }
