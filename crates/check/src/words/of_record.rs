@@ -1,7 +1,7 @@
 //! Warnings about files of records, in both languages.
 
 use ::report::number;
-use ground_motion::{STANDARD_GRAVITY, Warning};
+use ground_motion::{STANDARD_GRAVITY, Unit, Warning};
 use run::records::RecordWarning;
 
 use super::{Language, Sentence};
@@ -35,12 +35,10 @@ fn in_italian(warning: &Warning) -> String {
             shown(*peak)
         ),
         Warning::Unit { peak, unit, others } => {
-            let others: Vec<_> = others.iter().map(|unit| unit.name()).collect();
-            let others = others.join(" o ");
-            let others = if others.is_empty() { others } else { format!(" Sarebbe credibile con {others}") };
+            let peak = shown(*peak);
             format!(
-                "unità: un picco di {} g non è credibile; i campioni sono davvero in {unit}?{others}",
-                shown(*peak)
+                "unità: un picco di {peak} g non è credibile; i campioni sono davvero in {unit}?{}",
+                credible(others)
             )
         }
         Warning::Strength { peak } => format!(
@@ -83,20 +81,22 @@ fn in_italian(warning: &Warning) -> String {
             shown(peak / STANDARD_GRAVITY),
             shown(others / STANDARD_GRAVITY)
         ),
-        Warning::StatedStep { step, stated } => {
-            format!(
-                "passo: il file ha {} s tra i campioni; valgono i {} s dichiarati",
-                shown(*step),
-                shown(*stated)
-            )
-        }
+        Warning::StatedStep { step, stated } => format!(
+            "passo: il file ha {} s tra i campioni; valgono i {} s dichiarati",
+            shown(*step),
+            shown(*stated)
+        ),
     }
+}
+
+/// The units that would give a credible peak.
+fn credible(units: &[Unit]) -> String {
+    let units: Vec<_> = units.iter().map(|unit| unit.name()).collect();
+    if units.is_empty() { String::new() } else { format!(" Sarebbe credibile con {}", units.join(" o ")) }
 }
 
 #[cfg(test)]
 mod tests {
-    use ground_motion::Unit;
-
     use super::*;
 
     /// Words of the English warnings that no Italian one has.
