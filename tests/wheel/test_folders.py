@@ -117,7 +117,8 @@ def test_a_study_of_parts_becomes_a_file(tmp_path, monkeypatch):
     walls = {"low": rw.Wall(1.5, 0.25), "own": {"height": 3, "thickness": 0.25, "xi": 0.07}}
     rng = np.random.default_rng(5)
     records = [rw.synthetic_record(rng, duration=10) for _ in range(3)]
-    records.append(rw.sequence(records[:2], pause=3))
+    # before the others: the bootstrap sees the order
+    records.insert(0, rw.sequence(records[:2], pause=3))
     levels = {"method": "step", "step": 0.4, "top": 4}
     report = {"resamples": 100, "seed": np.random.default_rng(7)}
     hazard = tmp_path / "elsewhere" / "curve.csv"
@@ -139,6 +140,9 @@ def test_a_study_of_parts_becomes_a_file(tmp_path, monkeypatch):
         study.to_toml(tmp_path / "study.toml")
     with pytest.raises(ValueError, match="is a file already"):
         again.to_toml(tmp_path / "other.toml")
+    pair = rw.sequence(records[1:3], name="pair")
+    rw.Study(walls=walls, records=[pair], models=["CDC"], levels=levels).to_toml(tmp_path / "pair.toml")
+    assert rw.Study(tmp_path / "pair.toml").records == ["pair 1 + pair 2"]
     mixed = [records[0], rw.synthetic_record(dt=0.01)]
     with pytest.raises(ValueError, match="steps of 0.005 s and 0.01 s"):
         rw.Study(walls=walls, records=mixed, models=["CDC"], levels=levels).to_toml(

@@ -64,7 +64,7 @@ tables! {
         #[serde(default)]
         files: Vec<Spanned<String>>,
         /// Sequences of records that follow each other, such as a main shock and an aftershock: each a list
-        /// of files, or of tables with options of their own.
+        /// of files, or of tables with options of their own. A list of one is a single record among them.
         #[serde(default)]
         sequences: Vec<Spanned<Shocks>>,
         /// Time between the records of a sequence \[s\].
@@ -132,7 +132,9 @@ pub fn records(
         let message = "component is that of a list; name one by selection = \"…\", or leave component out";
         return Err(place.error(component.span(), message));
     }
-    let single = spec.sequences.iter().find(|shocks| shocks.get_ref().0.len() < 2).map(Spanned::span);
+    // beside sequences, a single record keeps its place among them
+    let has_sequence = spec.sequences.iter().any(|shocks| shocks.get_ref().0.len() > 1);
+    let single = spec.sequences.first().filter(|_| !has_sequence).map(Spanned::span);
     let unused = spec.pause.as_ref().filter(|_| spec.sequences.is_empty()).map(Spanned::span);
     if let Some(span) = single.or(unused) {
         let message = "a sequence is a list of two records or more, between which is the pause; put a single \

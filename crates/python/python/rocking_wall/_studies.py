@@ -156,10 +156,9 @@ class Study:
 
     def to_toml(self, path: str | PathLike[str]) -> None:
         """Writes a study that was made of parts as a study file, for `wall study ida` and for colleagues: the
-        same results to the last bit, where sequences are its last records. The records are in the folder
-        `PATH_records` beside it, as numbers in text files of their names. A sequence has a file for each
-        shock, goes by the names of these, and comes after the other records. Other files that the study
-        names, such as that of a hazard, stay where they are, by their absolute paths.
+        same results to the last bit. The records are in the folder `PATH_records` beside it, as numbers in
+        text files of their names. A sequence has a file for each shock, and goes by the names of these. Other
+        files that the study names, such as that of a hazard, stay where they are, by their absolute paths.
 
         Raises `FileExistsError` for a file that exists, `ValueError` for what a study file cannot hold:
         walls on storeys, records with several steps, names that are not those of files.
@@ -394,7 +393,7 @@ def shocks_of(file: str, motion: Motion) -> dict[str, NDArray[np.float64]]:
         return {file: samples}
     names = file.rpartition("/")[2].split(" + ")
     if len(names) != len(later) + 1:
-        names = [f"{names[0]} {number}" for number in range(len(later) + 1)]
+        names = [f"{names[0]} {number}" for number in range(1, len(later) + 2)]
     shocks = zip(names, np.split(samples, later), strict=True)
     return {f"{file}/{number}/{name}": shock for number, (name, shock) in enumerate(shocks, 1)}
 
@@ -424,10 +423,11 @@ def write_study(
     folder = path.with_name(f"{path.stem}_records")
     shocks = [shocks_of(f"{folder.name}/{name}", motion) for name, motion in records]
     described = {"format": "numbers", "step": steps.pop(), "unit": "m/s2"}
-    if files := [name for each in shocks for name in each if len(each) == 1]:
-        described["files"] = files
-    if sequences := [list(each) for each in shocks if len(each) > 1]:
-        described |= {"sequences": sequences, "pause": 0}
+    if any(len(each) > 1 for each in shocks):
+        # a list of one file is that record alone; `files` would come first, in another order
+        described |= {"sequences": [list(each) for each in shocks], "pause": 0}
+    else:
+        described["files"] = [name for each in shocks for name in each]
     if folder.exists():
         raise FileExistsError(f"{folder}: exists; remove it, or write the study elsewhere")
     with open(path, "x", encoding="utf-8", newline="") as file:

@@ -163,7 +163,7 @@ class Records(TypedDict, total=False):
     - selection: A list of records with scale factors and weights, as selectors write it: a table, or its
       folder.
     - sequences: Sequences of records that follow each other, such as a main shock and an aftershock: each a
-      list of files, or of tables with options of their own.
+      list of files, or of tables with options of their own. A list of one is a single record among them.
     - step: Time between samples [s], likewise.
     - synthetic: Synthetic motions.
     - unit: Unit: m/s2, cm/s2, mm/s2 or g, for files that do not state theirs.

@@ -188,6 +188,10 @@ fn files_make_sequences_and_mistakes_are_named() {
     let twice = with(&twice, grid).unwrap();
     let names: Vec<_> = twice.study.records().iter().map(|record| &*record.name).collect();
     assert_eq!(names, ["main shock.csv + aftershock.csv", "main shock.csv + aftershock.csv (scale 2)"]);
+    // a single record keeps its place among sequences
+    let among = with(&format!("sequences = [\"aftershock.csv\", {pair}]"), grid).unwrap();
+    let single = &among.study.records()[0];
+    assert_eq!((&*single.name, &single.motion), ("aftershock.csv", &shocks[1]));
     let files = "files = [\"main shock.csv\"]";
     let last = format!("{grid}\nscaled_shocks = \"last\"");
     let given = |scaled: &str, given: &str| {
@@ -197,7 +201,11 @@ fn files_make_sequences_and_mistakes_are_named() {
     let strong = "sequences = [[{ record = \"main shock.csv\", scale = 20 }, \"aftershock.csv\"]]";
     let sequences = &format!("sequences = [{pair}]");
     for (records, more, message) in [
-        ("sequences = [\"main shock.csv\"]", grid, "line 6: a sequence is a list of two records or more"),
+        (
+            "sequences = [\"main shock.csv\", \"aftershock.csv\"]",
+            grid,
+            "line 6: a sequence is a list of two records or more",
+        ),
         ("sequences = [[]]", grid, "line 6: "),
         ("sequences = [[[\"a\"], \"b\"]]", grid, "expected a path in quotes, or a list"),
         ("sequences = [[\"main shock.csv\", \"gone.csv\"]]", grid, "gone.csv: cannot be read"),
