@@ -77,8 +77,10 @@ pub struct Curve {
     pub file: Option<PathBuf>,
     /// Points [u, F] of the wall, the origin among them, u rising \[m, N\].
     pub points: Vec<[f64; 2]>,
-    /// How many of them the law keeps, how far it is from the others, and how it goes on.
-    kept: String,
+    /// How many of them the law keeps, and how far it is from the others.
+    short: String,
+    /// Where it is farthest from them, and how it goes on.
+    rest: String,
     /// What is improbable of the curve on its wall.
     pub doubts: Vec<String>,
     /// Whether an oscillator has it, in place of a geometry.
@@ -91,8 +93,14 @@ impl Curve {
     /// Returns how many of its points the law keeps, how far it is from the others, how it goes on, and the
     /// doubts.
     pub fn note(&self) -> String {
-        let told = std::iter::once(&self.kept).chain(&self.doubts).filter(|words| !words.is_empty());
+        let kept = format!("{}{}", self.short, self.rest);
+        let told = std::iter::once(&kept).chain(&self.doubts).filter(|words| !words.is_empty());
         told.map(String::as_str).collect::<Vec<_>>().join("; ")
+    }
+
+    /// Returns how many of its points the law keeps, and how far it is from the others.
+    pub fn short_note(&self) -> &str {
+        &self.short
     }
 
     /// Returns what says that these parameters are those of an oscillator, without the points of its curve.
@@ -101,8 +109,9 @@ impl Curve {
     /// [`ParameterError`] of parameters that make no wall.
     pub fn of_oscillator(parameters: &Parameters) -> Result<Self, ParameterError> {
         let scales = scales(Statics::new(parameters)?.body());
-        let (kept, doubts) = ("sent without its points".to_owned(), Vec::new());
-        Ok(Self { file: None, points: Vec::new(), kept, doubts, is_of_oscillator: true, scales })
+        let (short, rest) = ("sent without its points".to_owned(), String::new());
+        let (points, doubts) = (Vec::new(), Vec::new());
+        Ok(Self { file: None, points, short, rest, doubts, is_of_oscillator: true, scales })
     }
 
     /// Refuses the name of a parameter that no oscillator has, if this is the curve of one.
@@ -125,7 +134,8 @@ impl Curve {
         if scales.is_ok_and(|scales| scales != self.scales) {
             let scaled = "the curve is scaled with F0 and u_ins, which were changed after it was read, as by \
                           --set or cells of a table; not drawn";
-            (self.points, self.kept, self.doubts) = (Vec::new(), String::new(), vec![scaled.to_owned()]);
+            (self.short, self.rest) = (String::new(), String::new());
+            (self.points, self.doubts) = (Vec::new(), vec![scaled.to_owned()]);
         }
         Some(self)
     }
@@ -216,8 +226,8 @@ pub fn apply_curve(
             law.doubts_of_oscillator(effective_mass * participation * parameters.gravity)
         }
     };
-    let (kept, scales) = (law.note(), scales(&scaled_by));
-    Ok(Some(Curve { file: path, points: law.points, kept, doubts, is_of_oscillator, scales }))
+    let (short, rest, scales) = (law.short_note(), law.rest_of_note(), scales(&scaled_by));
+    Ok(Some(Curve { file: path, points: law.points, short, rest, doubts, is_of_oscillator, scales }))
 }
 
 /// Reads the keys of a capacity curve with their place, and refuses others beside them.

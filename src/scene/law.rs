@@ -7,7 +7,7 @@
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
-use crate::wall::{Body, Sides};
+use crate::wall::{Body, Sides, six_digits};
 
 /// How far the end of a curve may be from `u_ins` without a word, of it \[-\].
 const MOST_OFF_END: f64 = 0.01;
@@ -84,14 +84,21 @@ impl Law {
         mirrored.chain(corners).map(fraction).collect()
     }
 
-    pub(super) fn note(&self) -> String {
+    /// Says how many points the law keeps, and how far it is from the others.
+    pub(super) fn short_note(&self) -> String {
         let [kept, all] = [self.kept.len(), self.points.len()].map(|count| count - 1);
-        let mut note = format!("{kept} of {all} points");
+        let points = format!("{kept} of {all} points");
+        let percent = 100.0 * self.off[0];
+        if percent > 0.0 { format!("{points}, ΔF at most {percent:.3} %") } else { points }
+    }
+
+    /// Goes on after the short note: where the law is farthest off, and how it ends.
+    pub(super) fn rest_of_note(&self) -> String {
         let [off, u] = self.off;
+        let mut note = String::new();
+        // writing to a String cannot fail
         if off > 0.0 {
-            // writing to a String cannot fail
-            let percent = 100.0 * off;
-            let _ = write!(note, ", ΔF at most {percent:.3} % of the largest F of its side, at u = {u:.4} m");
+            let _ = write!(note, " of the largest F of its side, at u = {u:.4} m");
         }
         for End { point: [last, _], u, .. } in self.ends().filter(|end| end.point[1] != 0.0) {
             let _ = write!(note, "; beyond its last point, u = {last:.4} m, F falls to 0 at |u| = {u:.4} m");
@@ -108,7 +115,8 @@ impl Law {
                 let force = self.force(u_ins.copysign(last));
                 doubts.push(format!(
                     "F is {force:.0} N at u_ins = {u_ins:.4} m, beyond which the wall is overturned, and 0 \
-                     at |u| = {end:.4} m: give the geometry of the curve, or an oscillator"
+                     at |u| = {} m: give the geometry of the curve, or an oscillator",
+                    six_digits(end)
                 ));
             }
             let side = if last < 0.0 { &self.points[..self.zero] } else { &self.points[self.zero..] };
@@ -129,7 +137,8 @@ impl Law {
         let end = self.ends().map(|end| end.u).fold(0.0, f64::max);
         if !USUAL_ENDS.contains(&end) {
             let [least, most] = [USUAL_ENDS.start(), USUAL_ENDS.end()];
-            doubts.push(format!("F is 0 at |u| = {end:.4} m, not {least} to {most} m: check the unit"));
+            let end = six_digits(end);
+            doubts.push(format!("F is 0 at |u| = {end} m, not {least} to {most} m: check the unit"));
         }
         let largest = largest_force(&self.points) / weight;
         if !USUAL_ACCELERATIONS.contains(&largest) {

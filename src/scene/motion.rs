@@ -11,6 +11,7 @@ use ground_motion::{
 use toml::Spanned;
 
 use crate::simulation::Excitation;
+use crate::wall::six_digits;
 
 use super::error::SceneError;
 use super::shocks::{RecordProblem as Problem, RecordTable, Shocks, scaled};
@@ -240,8 +241,7 @@ fn sequence(
     }
     let pause = spec.pause.unwrap_or(DEFAULT_PAUSE);
     let motion = shocks.read(options, pause, folder, |table, record| note(notes, table, record))?;
-    let step = (1e9 * motion.step()).round() / 1e9;
-    let joined = || format!("{pause} s between them, in steps of {step} s");
+    let joined = || format!("{pause} s between them, in steps of {} s", six_digits(motion.step()));
     notes.extend((shocks.0.len() > 1).then(joined));
     Ok(motion)
 }

@@ -91,3 +91,4 @@ pub(crate) use turn::Turn;
 pub use usage::{Usage, usage};
 pub use usual::Usual;
 pub use warning::Warning;
+pub(crate) use warning::six_digits;

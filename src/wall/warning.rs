@@ -109,7 +109,7 @@ fn unusual(name: &str, value: f64, unit: &str, usual: [f64; 2], meant: Option<(&
 }
 
 /// A number to six digits, in powers of ten where it is very large or small.
-fn six_digits(value: f64) -> String {
+pub(crate) fn six_digits(value: f64) -> String {
     let rounded = format!("{value:.5e}").parse().unwrap_or(value);
     if value == 0.0 || (1e-4..1e9).contains(&value.abs()) {
         format!("{rounded}")

@@ -180,7 +180,9 @@ fn an_oscillator_has_the_constants_that_are_given() {
 fn the_example_reads_its_curve() {
     let scene = Scene::read(&crate::root().join("examples/capacity_curve.toml")).unwrap();
     let curve = scene.curve.as_ref().unwrap();
-    assert!(curve.note().starts_with("14 of 15 points, ΔF at most 0.128 %"), "{}", curve.note());
+    assert_eq!(curve.short_note(), "14 of 15 points, ΔF at most 0.128 %");
+    let kept = "14 of 15 points, ΔF at most 0.128 % of the largest F of its side, at u =";
+    assert!(curve.note().starts_with(kept), "{}", curve.note());
     let end = "beyond its last point, u = 0.1225 m, F falls to 0 at |u| =";
     assert!(curve.note().contains(end), "{}", curve.note());
     // it fits its geometry
@@ -227,8 +229,7 @@ fn a_curve_that_does_not_fit_its_geometry_is_told() {
         curve.doubts
     };
     let end = doubts("[[0.02, 1000.0], [0.22, 0.0]]");
-    let words =
-        "F is 100 N at u_ins = 0.2000 m, beyond which the wall is overturned, and 0 at |u| = 0.2200 m";
+    let words = "F is 100 N at u_ins = 0.2000 m, beyond which the wall is overturned, and 0 at |u| = 0.22 m";
     assert!(end.len() == 1 && end[0].contains(words), "{end:?}");
     // a side of its own that ends before u_ins
     let end = doubts("[[-0.18, 0.0], [-0.02, -1600.0], [0.02, 1000.0], [0.2, 0.0]]");
@@ -248,9 +249,11 @@ fn an_oscillator_in_other_units_is_told() {
         read("units", &text, "").unwrap()
     };
     let (curve, millimetres) = ("[[0.02, 1000.0], [0.2, 0.0]]", "[[20.0, 1000.0], [200.0, 0.0]]");
+    let micrometres = "[[1e-6, 1000.0], [1e-5, 0.0]]";
     for (curve, mass, words) in [
         (curve, 800.0, None),
-        (millimetres, 800.0, Some("F is 0 at |u| = 200.0000 m, not 0.001 to 5 m: check the unit")),
+        (millimetres, 800.0, Some("F is 0 at |u| = 200 m, not 0.001 to 5 m: check the unit")),
+        (micrometres, 800.0, Some("F is 0 at |u| = 1e-5 m, not 0.001 to 5 m: check the unit")),
         (curve, 8e5, Some("the largest a* is 1.062e-4 g, not 0.005 to 5: check the unit, and")),
     ] {
         let doubts = of(curve, mass).curve.unwrap().doubts;

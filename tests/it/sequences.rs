@@ -162,7 +162,12 @@ fn scenes_state_sequences() {
     assert_eq!((found.step(), found.samples()), (0.01, &expected[..]));
     assert_eq!(found.shocks()[1].start, 8);
     assert_eq!(scene.files.len(), 2);
-    assert!(scene.motion_notes.iter().any(|note| note.contains("0.02 s between them")));
+    let joined = "0.02 s between them, in steps of 0.01 s".to_owned();
+    assert!(scene.motion_notes.contains(&joined), "{:?}", scene.motion_notes);
+    // a step that nine decimals would show as 0
+    write("fast.csv", 2e-10, &[0.0, 2.0, -1.0, 0.0]);
+    let fast = read("pause = 0\nrecord = [\"fast.csv\", \"fast.csv\"]\n").unwrap().motion_notes;
+    assert!(fast.contains(&"0 s between them, in steps of 2e-10 s".to_owned()), "{fast:?}");
     // one in a list is a record by itself
     let [one, alone] =
         ["record = [\"main.csv\"]\n", "record = \"main.csv\"\n"].map(|text| read(text).unwrap());

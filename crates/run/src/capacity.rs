@@ -137,9 +137,7 @@ pub fn with_curve(mut plot: Plot, curve: Option<&scene::Curve>) -> Plot {
     let Some(curve) = curve.filter(|curve| !curve.points.is_empty()) else { return plot };
     let points = curve.points.iter().map(|point| (1000.0 * point[0].abs(), point[1].abs() / 1000.0));
     // a legend has room for the points and the largest deviation alone
-    let note = curve.note();
-    let short = note.split(';').next().and_then(|first| first.split(" of the largest").next());
-    let (name, look) = (format!("as given: {}", short.unwrap_or_default()), Look::Marks(Mark::Circle));
+    let (name, look) = (format!("as given: {}", curve.short_note()), Look::Marks(Mark::Circle));
     plot.series.push(Series { name, look, ..Series::stroke(RED, 2.0, points.collect()) });
     plot
 }

@@ -42,7 +42,8 @@ fn describe_draws_a_capacity_curve_over_its_law() {
         &text,
         &["force_law", "multilinear", "of 15 points, ΔF at most", "% of the largest F of its side, at u = "],
     );
-    assert!(content(&folder, "c.svg").contains("as given: "));
+    let kept = text.split_once(" of the largest F").unwrap().0.rsplit("  ").next().unwrap();
+    assert!(content(&folder, "c.svg").contains(&format!(">as given: {kept}<")), "{kept}");
     let json = json(&folder, &["describe", "scene.toml", "--json"]);
     assert!(json["curve"].as_str().unwrap().contains(" of 15 points"));
     fails(&folder, &["describe", "scene.toml", "--csv", "curve.csv"], &["curve.csv"]);
