@@ -10,23 +10,32 @@ use ground_motion::Warning;
 pub struct RecordWarning {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong with it; `None` where it is left out, a vertical component of a folder.
-    pub of: Option<Warning>,
+    /// Why it is named.
+    pub reason: Reason,
+}
+
+/// Why a warning names the file of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reason {
+    /// It is left out: a vertical component of a folder.
+    LeftOut,
+    /// Its content gives reason to warn.
+    Of(Warning),
 }
 
 impl RecordWarning {
     /// The warnings about a record of a file.
     pub(crate) fn all(path: &Path, warnings: Vec<Warning>) -> impl Iterator<Item = Self> {
-        warnings.into_iter().map(|warning| Self { path: path.to_owned(), of: Some(warning) })
+        warnings.into_iter().map(|warning| Self { path: path.to_owned(), reason: Reason::Of(warning) })
     }
 }
 
 impl fmt::Display for RecordWarning {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{}: ", self.path.display())?;
-        match &self.of {
-            Some(warning) => warning.fmt(formatter),
-            None => formatter.write_str("vertical, left out; name the file itself to use it"),
+        match &self.reason {
+            Reason::Of(warning) => warning.fmt(formatter),
+            Reason::LeftOut => formatter.write_str("vertical, left out; name the file itself to use it"),
         }
     }
 }

@@ -12,7 +12,7 @@ use ground_motion::{
 use rocking_wall::scene::{LONGEST_TAIL, RecordTable, SceneError, Shocks};
 use toml::Spanned;
 
-pub use crate::record_warning::RecordWarning;
+pub use crate::record_warning::{Reason, RecordWarning};
 use crate::selection::{self, ListedFile};
 pub use crate::selection::{Listed, Selection};
 
@@ -262,7 +262,7 @@ pub fn all_records(
         }
         let record = read(path, &options).map_err(refused)?;
         if record.is_vertical && !is_named {
-            warnings.push(RecordWarning { path: path.clone(), of: None });
+            warnings.push(RecordWarning { path: path.clone(), reason: Reason::LeftOut });
             continue;
         }
         warnings.extend(RecordWarning::all(path, record.check().warnings));

@@ -2,15 +2,15 @@
 
 use ::report::number;
 use ground_motion::{STANDARD_GRAVITY, Unit, Warning};
-use run::records::RecordWarning;
+use run::records::{Reason, RecordWarning};
 
 use super::{Language, Sentence};
 
 /// A warning about the file of a record.
 pub(crate) fn of_record(warning: &RecordWarning) -> Sentence {
-    let said = match &warning.of {
-        Some(own) => in_italian(own),
-        None => "componente verticale, esclusa; per usarla nominare il file".to_owned(),
+    let said = match &warning.reason {
+        Reason::Of(own) => in_italian(own),
+        Reason::LeftOut => "componente verticale, esclusa; per usarla nominare il file".to_owned(),
     };
     Sentence::new(warning.to_string(), format!("{}: {said}", warning.path.display()))
 }
