@@ -80,7 +80,7 @@ impl Name {
     /// Returns the quantity other than an acceleration of the ground that its words say.
     pub(crate) fn says(&self) -> Option<Quantity> {
         let words = self.words();
-        // in English, German, French, Italian and Spanish
+        // in English, German, French, Italian and Spanish; words keep the capitals that are not ASCII
         let starts = |word: &str, all: &[&str]| all.iter().any(|start| word.starts_with(start));
         let quantity = words.iter().find_map(|word| match word.as_str() {
             "sv" | "psv" | "vg" => Some(Quantity::Velocity),

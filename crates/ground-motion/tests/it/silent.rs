@@ -91,7 +91,15 @@ fn the_unit_of_the_file_counts_wherever_it_stands() {
 /// Velocities and displacements in other languages.
 #[test]
 fn other_quantities_are_known_in_other_languages() {
-    for name in ["velocità", "Geschwindigkeit", "vitesse", "spostamento", "déplacement", "Verschiebung"] {
+    for name in [
+        "velocità",
+        "Geschwindigkeit",
+        "vitesse",
+        "spostamento",
+        "déplacement",
+        "DÉPLACEMENT",
+        "Verschiebung",
+    ] {
         refused(
             &table(&format!("time;{name}\n"), ";", "", "."),
             &si(),

@@ -274,13 +274,11 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
     let ratio = plots::cut(column(&|sample| sample.outputs.ratio));
     let motion = column(&|sample| sample.support.bottom);
     let force = plots::force_path(wall, response.samples.iter(), &ratio);
-    let (caption, force) = match scene.curve.as_ref().filter(|curve| !curve.points.is_empty()) {
-        Some(curve) => (
-            "Restoring force; dashed: its backbone; circles: the capacity curve as given",
-            plots::with_points(force, wall, curve),
-        ),
-        None => ("Restoring force; dashed: its backbone", force),
+    let (circles, force) = match scene.curve.as_ref().filter(|curve| !curve.points.is_empty()) {
+        Some(curve) => ("; circles: the capacity curve as given", plots::with_points(force, wall, curve)),
+        None => ("", force),
     };
+    let caption = format!("Restoring force; dashed: its backbone{circles}");
     let has_top = response.samples.iter().any(|sample| sample.support.top != sample.support.bottom);
     let top_motion = has_top.then(|| column(&|sample| sample.support.top));
     let supports = match top_motion {
@@ -299,7 +297,7 @@ fn figures(scene: &Scene, wall: &Wall, response: &Response, end: f64) -> String 
         ),
         plot("motion", supports, &plots::motion(&motion, top_motion.as_deref(), end), &[], true),
         tie::figures(wall, response, end),
-        plot("force", caption, &force, &[], false),
+        plot("force", &caption, &force, &[], false),
     ]
     .concat()
 }

@@ -83,7 +83,9 @@ fn a_capacity_curve_is_drawn_over_the_force() {
         (scene.parameters, scene.curve) = (given.parameters, given.curve);
     });
     let plain = page(|_| {});
-    assert!(html.contains("circles: the capacity curve as given") && !plain.contains("circles: "));
+    let caption = "<figcaption>Restoring force; dashed: its backbone";
+    assert!(html.contains(&format!("{caption}; circles: the capacity curve as given</figcaption>")));
+    assert!(plain.contains(&format!("{caption}</figcaption>")));
     // the first half of a circle of 2 px
     let circles = |html: &str| html.matches("a2.0 2.0 0 1 0 4.0 0").count();
     assert_eq!(circles(&html) - circles(&plain), 2 * 4, "points and origin, on screens of two widths");

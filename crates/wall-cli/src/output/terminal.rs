@@ -83,7 +83,7 @@ impl<'a> Console<'a> {
             }
         }
         if more > 0 {
-            self.report(&format!("{more} more messages like these"));
+            self.report(&format!("{more} more messages"));
         }
     }
 }
