@@ -177,8 +177,7 @@ fn reports_have_one_language() {
     let scenes = scenes.into_iter().chain(examples.iter().map(|(name, scene)| (*name, &**scene)));
     let scenes = scenes.chain(variants.iter().map(|(name, scene)| (*name, &**scene)));
     let scenes: Vec<_> = scenes.chain(shipped.iter().map(|(name, scene)| (&**name, &**scene))).collect();
-    // docs/model.md counts them
-    assert_eq!(scenes.len(), 49);
+    assert_eq!(scenes.len(), 49, "docs/model.md counts them");
     for (name, scene) in scenes {
         fs::write(folder.join("scene.toml"), scene).unwrap();
         for (language, others) in [("it", ENGLISH), ("en", ITALIAN)] {
