@@ -147,7 +147,6 @@ fn reports_have_one_language() {
     let points = "spectrum = [[0, 2], [0.5, 5], [4, 0.6]]\nunit = \"m/s2\"\n[tie]\ntie_height = 1.5\n\
                   tie_stiffness = 2e6\ntie_strength = 2e3\n";
     let of_points = FRACTIONS.split("records").next().unwrap().to_owned() + points;
-    let on_a_floor = FRACTIONS.replace("[check]", "[[storeys]]\nperiod = 0.3\n[check]");
     let wall = "\n[geometry]\nheight = 2\nthickness = 0.4\ndensity = 1800\n";
     let examples = check::CODES.map(|code| (code.name, code.example.to_owned() + wall));
     let scenes = [
@@ -165,7 +164,7 @@ fn reports_have_one_language() {
         ("squat", &squat),
         ("fractions", FRACTIONS),
         ("of_points", &of_points),
-        ("on_a_floor", &on_a_floor),
+        ("on_a_floor", &FRACTIONS.replace("[check]", "[[storeys]]\nperiod = 0.3\n[check]")),
     ];
     // shaking that begins and ends at its peak
     for (name, rate) in [("cut1.txt", 0.2), ("cut2.txt", 0.3), ("cut3.txt", 0.4)] {
