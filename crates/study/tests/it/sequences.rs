@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Once;
 
 use ground_motion::{GroundMotion, SyntheticMotion};
 use rocking_wall::response::Response;
@@ -152,27 +153,34 @@ fn fragilities_are_told_by_the_state_before() {
     assert!(page.contains("Fragilities of the last shock"));
 }
 
+const PAIR: &str = "[\"main shock.csv\", \"aftershock.csv\"]";
+const GRID: &str = "levels = { method = \"step\", step = 0.5, top = 1 }";
+
+/// A study of one wall under records of three files.
+fn of_files(name: &str, records: &str, more: &str) -> Result<LoadedStudy, String> {
+    static FILES: Once = Once::new();
+    FILES.call_once(|| {
+        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+        let write = |name: &str, motion: &GroundMotion| {
+            let samples = motion.samples().iter().enumerate();
+            let rows = samples.map(|(k, a)| format!("{:?},{a:?}\n", k as f64 * STEP));
+            fs::write(folder.join(name), "t,a\n".to_owned() + &rows.collect::<String>()).unwrap();
+        };
+        write("main shock.csv", &shock(1, 2.0));
+        write("aftershock.csv", &shock(2, 1.0));
+        write("cut.csv", &GroundMotion::new(STEP, vec![0.0, 1.0]).unwrap());
+    });
+    let text = format!(
+        "models = [\"CDC\"]\nintensity = {{ measure = \"PGA\" }}\n{more}\n\
+         [records]\nunit = \"m/s2\"\n{records}\n\
+         [[walls]]\nname = \"a\"\ngeometry = {{ height = 3, thickness = 0.3, density = 1800 }}\n"
+    );
+    load(name, &text, &NoCodes)
+}
+
 #[test]
-fn files_make_sequences_and_mistakes_are_named() {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
-    let write = |name: &str, motion: &GroundMotion| {
-        let rows = motion.samples().iter().enumerate().map(|(k, a)| format!("{:?},{a:?}\n", k as f64 * STEP));
-        fs::write(folder.join(name), "t,a\n".to_owned() + &rows.collect::<String>()).unwrap();
-    };
-    write("main shock.csv", &shock(1, 2.0));
-    write("aftershock.csv", &shock(2, 1.0));
-    write("cut.csv", &GroundMotion::new(STEP, vec![0.0, 1.0]).unwrap());
-    let with = |records: &str, more: &str| {
-        let text = format!(
-            "models = [\"CDC\"]\nintensity = {{ measure = \"PGA\" }}\n{more}\n\
-             [records]\nunit = \"m/s2\"\n{records}\n\
-             [[walls]]\nname = \"a\"\ngeometry = {{ height = 3, thickness = 0.3, density = 1800 }}\n"
-        );
-        load("sequences of files", &text, &NoCodes)
-    };
-    let (pair, grid) =
-        ("[\"main shock.csv\", \"aftershock.csv\"]", "levels = { method = \"step\", step = 0.5, top = 1 }");
-    let loaded = with(&format!("sequences = [{pair}]\npause = 4"), grid).unwrap();
+fn files_make_sequences() {
+    let loaded = of_files("sequences of files", &format!("sequences = [{PAIR}]\npause = 4"), GRID).unwrap();
     let shocks = [shock(1, 2.0), shock(2, 1.0)];
     let wanted = GroundMotion::sequence(&shocks, 4.0).unwrap();
     assert_eq!(loaded.study.records()[0].motion, wanted);
@@ -180,18 +188,24 @@ fn files_make_sequences_and_mistakes_are_named() {
     assert!(loaded.inputs.iter().any(|input| input.ends_with("aftershock.csv")));
     // a factor of two is the doubled record, bit for bit
     let doubled = "sequences = [[\"main shock.csv\", { record = \"aftershock.csv\", scale = 2 }]]\npause = 4";
-    let doubled = with(doubled, grid).unwrap();
+    let doubled = of_files("sequences of files", doubled, GRID).unwrap();
     let wanted = GroundMotion::sequence(&[shocks[0].clone(), shocks[1].scaled(2.0)], 4.0).unwrap();
     assert_eq!(doubled.study.records()[0].motion, wanted);
     let twice =
-        format!("sequences = [{pair}, [\"main shock.csv\", {{ record = \"aftershock.csv\", scale = 2 }}]]");
-    let twice = with(&twice, grid).unwrap();
+        format!("sequences = [{PAIR}, [\"main shock.csv\", {{ record = \"aftershock.csv\", scale = 2 }}]]");
+    let twice = of_files("sequences of files", &twice, GRID).unwrap();
     let names: Vec<_> = twice.study.records().iter().map(|record| &*record.name).collect();
     assert_eq!(names, ["main shock.csv + aftershock.csv", "main shock.csv + aftershock.csv (scale 2)"]);
     // a single record keeps its place among sequences
-    let among = with(&format!("sequences = [\"aftershock.csv\", {pair}]"), grid).unwrap();
+    let among =
+        of_files("sequences of files", &format!("sequences = [\"aftershock.csv\", {PAIR}]"), GRID).unwrap();
     let single = &among.study.records()[0];
     assert_eq!((&*single.name, &single.motion), ("aftershock.csv", &shocks[1]));
+}
+
+#[test]
+fn mistakes_in_sequences_of_files_are_named() {
+    let grid = GRID;
     let files = "files = [\"main shock.csv\"]";
     let last = format!("{grid}\nscaled_shocks = \"last\"");
     let given = |scaled: &str, given: &str| {
@@ -199,7 +213,7 @@ fn files_make_sequences_and_mistakes_are_named() {
     };
     let cloud = "levels = { method = \"cloud\" }\nscaled_shocks = \"last\"\nreport = { given = [0.1] }";
     let strong = "sequences = [[{ record = \"main shock.csv\", scale = 20 }, \"aftershock.csv\"]]";
-    let sequences = &format!("sequences = [{pair}]");
+    let sequences = &format!("sequences = [{PAIR}]");
     for (records, more, message) in [
         (
             "sequences = [\"main shock.csv\", \"aftershock.csv\"]",
@@ -221,10 +235,13 @@ fn files_make_sequences_and_mistakes_are_named() {
         (sequences, cloud, "levels of another method than a cloud"),
         (sequences, &format!("{last}\nstoreys = [{{ period = 0.3 }}]"), "\"a\" stands on storeys"),
     ] {
-        let told = with(records, more).err().unwrap_or_else(|| panic!("{records} {more}"));
+        let told = of_files("wrong sequences of files", records, more)
+            .err()
+            .unwrap_or_else(|| panic!("{records} {more}"));
         assert!(told.contains(message), "{records} {more}\n{told}");
     }
-    let told = with(strong, &last).unwrap().study.run(1).unwrap_err().to_string();
+    let told =
+        of_files("wrong sequences of files", strong, &last).unwrap().study.run(1).unwrap_err().to_string();
     assert!(
         told.contains("\"a\" with \"CDC\" overturns before the last shock of") && told.contains("scale"),
         "{told}"
