@@ -78,12 +78,20 @@ fn figures(key: impl IntoIterator<Item = (String, String)>, figures: impl Iterat
 pub fn picture(studies: &[WorkPrecision], peers: Option<&Peers>) -> String {
     let sized = |title: &String, plot| Plot { title: title.clone(), size: [560.0, 320.0], ..plot };
     let plots: Vec<_> = match peers {
-        Some(peers) => {
-            peers.iter().map(|(scene, rows)| sized(scene, plot(&TOOLS, rows, None, true))).collect()
-        }
+        Some(peers) => peers.iter().map(|(scene, rows)| sized(scene, beside_legend(rows))).collect(),
         None => studies.iter().map(|study| sized(&study.name, solver_plot(study, true))).collect(),
     };
     stacked(&plots)
+}
+
+/// The plot of tools on a problem, whose legend stands right of the slowest.
+fn beside_legend(points: &[Point]) -> Plot {
+    let mut plot = plot(&TOOLS, points, None, true);
+    let times = points.iter().map(|point| 1e3 * point.seconds);
+    let [fastest, slowest] = [times.clone().fold(f64::INFINITY, f64::min), times.fold(0.0, f64::max)];
+    // two thirds of a logarithmic axis are for the marks
+    plot.axes[0].range = Some([0.6 * fastest, slowest * (slowest / fastest).sqrt()]);
+    plot
 }
 
 /// The plot of a problem; with the names of the solvers if it is `named`.
