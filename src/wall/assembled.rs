@@ -44,6 +44,7 @@ use super::parameters::Parameters;
 use super::points::Point;
 use super::profile::{Profile, SAME};
 use super::sides::Sides;
+use super::strip::Strip;
 
 /// What one body has of each point, summed: with moments about the base and about each toe.
 struct OneBody {
@@ -198,7 +199,7 @@ impl Body {
     pub(super) fn strip_of_parts(parameters: &Parameters, profile: &Profile) -> Result<Self, ParameterError> {
         let h = profile.height();
         let h1 = profile.snapped(parameters.hinge_ratio * h);
-        let strip = Strip { h, h1, toes: profile.toes(), edges: profile.hinge_edges(h1)? };
+        let strip = Strip::new(profile, h1)?;
         let mut points = profile.masonry([0.0, h1], parameters.gravity);
         points.extend(profile.masonry([h1, h], parameters.gravity));
         let own = points.len();
@@ -263,49 +264,6 @@ impl Body {
             held: None,
         }
         .ending_at(h1))
-    }
-}
-
-/// A strip between its supports: heights of wall and hinge, the toes and the edges of the hinge \[m\].
-#[derive(Clone, Copy)]
-struct Strip {
-    h: f64,
-    h1: f64,
-    /// The outer and the inner toe.
-    toes: [f64; 2],
-    /// The outer and the inner edge of the sections in contact at the hinge.
-    edges: [f64; 2],
-}
-
-impl Strip {
-    /// The toe on which it bears on the side of `sign`.
-    fn toe(&self, sign: f64) -> f64 {
-        self.toes[usize::from(sign < 0.0)]
-    }
-
-    /// The edge about which the hinge opens on the side of `sign`.
-    fn edge(&self, sign: f64) -> f64 {
-        self.edges[usize::from(sign > 0.0)]
-    }
-
-    /// Returns whether a height belongs to the lower body; that of the hinge does.
-    fn is_below(&self, z: f64) -> bool {
-        z <= self.h1 + SAME * self.h
-    }
-
-    /// Returns φ, the displacement of a height for u = 1.
-    fn share(&self, z: f64) -> f64 {
-        if self.is_below(z) { z / self.h1 } else { (self.h - z) / (self.h - self.h1) }
-    }
-
-    /// Returns ρ, by which a place rises for |u| = 1 on the side of `sign`.
-    fn rise(&self, sign: f64, x: f64, z: f64) -> f64 {
-        let (toe, edge) = (self.toe(sign), self.edge(sign));
-        sign * if self.is_below(z) {
-            (x - toe) / self.h1
-        } else {
-            (edge - toe) / self.h1 + (edge - x) / (self.h - self.h1)
-        }
     }
 }
 

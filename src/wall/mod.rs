@@ -19,6 +19,7 @@
 //! | `given`, `usual` | numbers that are given or computed; numbers that walls usually have |
 //! | `bar`, `tie_numbers`, `parameters`, `usage` | what is given, and which of it has an effect |
 //! | `points` | masses and loads of parts as points |
+//! | `strip` | how the two bodies of a strip of parts move |
 //! | `mechanism`, `assembled`, `level` | bodies, of rectangles and of parts; those above a level |
 //! | `force_law`, `damping`, `turn`, `trigonometric` | what is made of it |
 //! | `tie`, `ties` | a tie, and those of a wall |
@@ -50,6 +51,7 @@ pub mod restitution;
 mod section;
 mod sides;
 mod statics;
+mod strip;
 mod supports;
 mod tie;
 mod tie_numbers;
@@ -82,6 +84,7 @@ pub use ratio::Ratio;
 pub use section::Section;
 pub use sides::Sides;
 pub use statics::Statics;
+pub use strip::Strip;
 pub use supports::{Ends, Support};
 pub use tie::{Hold, Tie, TieAction, TieMemory};
 pub use tie_numbers::TieNumbers;

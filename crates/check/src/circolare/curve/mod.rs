@@ -109,7 +109,7 @@ impl Curve {
         }
         let body = statics.body();
         let gravity = body.weight / body.mass;
-        let pushed = Pushed::new(body, &parameters, case.moved, case.statement.table.resultants);
+        let pushed = Pushed::new(body, &parameters, case.moved, case.statement.table.resultants)?;
         let Pushed { work: pushed_weight, e_star, d_per_u, .. } = pushed;
         let zero = statics.force_end().of(sign);
         if !(zero > 0.0 && zero.is_finite()) {

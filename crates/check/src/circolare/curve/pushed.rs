@@ -4,7 +4,7 @@
 //! strip is twice Lagrange's, so that its force counts twice, and with it Σ (P + Q) δ.
 
 use rocking_wall::variables::Mechanism;
-use rocking_wall::wall::{Body, Load, Parameters};
+use rocking_wall::wall::{Body, Load, ParameterError, Parameters, Strip};
 
 use crate::circolare::statement::resultants::Resultants;
 
@@ -62,10 +62,18 @@ impl Weights {
 
 impl Pushed {
     /// Returns the sums of a body; `moved` is the part of its overburden whose mass moves along \[N\].
-    pub(crate) fn new(body: &Body, parameters: &Parameters, moved: f64, resultants: Resultants) -> Self {
+    ///
+    /// # Errors
+    /// [`ParameterError`] of a strip whose bodies do not touch at the hinge.
+    pub(crate) fn new(
+        body: &Body,
+        parameters: &Parameters,
+        moved: f64,
+        resultants: Resultants,
+    ) -> Result<Self, ParameterError> {
         let bodies = match body.mechanism {
             Mechanism::Parapet | Mechanism::RigidBody => vec![one_body(body, parameters, moved)],
-            Mechanism::VerticalSpanning => strip(body, parameters),
+            Mechanism::VerticalSpanning => strip(body, parameters)?,
         };
         let of_bodies: Vec<_> = bodies.iter().map(|own| Weights::sum(own).resultant()).collect();
         let sums = [Weights::sum(&of_bodies), Weights::sum(&bodies.concat())];
@@ -73,7 +81,7 @@ impl Pushed {
         let Weights { weight, first, .. } = sums[0];
         let e_star = e_stars[usize::from(resultants == Resultants::Each)];
         let scale = if body.is_strip() { 2.0 } else { 1.0 };
-        Self { weight, work: scale * first, e_star, d_per_u: first / weight / e_star, e_stars }
+        Ok(Self { weight, work: scale * first, e_star, d_per_u: first / weight / e_star, e_stars })
     }
 }
 
@@ -97,20 +105,20 @@ fn one_body(body: &Body, parameters: &Parameters, moved: f64) -> Vec<Weights> {
 
 /// The own weight of the lower and of the upper body, with the loads on each; a load at the hinge rests on
 /// the lower one.
-fn strip(body: &Body, parameters: &Parameters) -> Vec<Vec<Weights>> {
+fn strip(body: &Body, parameters: &Parameters) -> Result<Vec<Vec<Weights>>, ParameterError> {
     let Some(profile) = &parameters.profile else {
         // both bodies of a rectangle have δ = 1/2
-        return vec![vec![Weights::at(body.weight, 0.5)]];
+        return Ok(vec![vec![Weights::at(body.weight, 0.5)]]);
     };
     let (gravity, h, h1) = (body.weight / body.mass, body.height, body.hinge_height);
-    let share = |z: f64, is_below: bool| if is_below { z / h1 } else { (h - z) / (h - h1) };
-    let is_below = |load: &&Load| load.height <= h1 + 1e-9 * h;
-    let (lower, upper): (Vec<&Load>, Vec<&Load>) = profile.loads().iter().partition(is_below);
-    let of = |heights: [f64; 2], loads: &[&Load], below: bool| {
+    let strip = Strip::new(profile, h1)?;
+    let (lower, upper): (Vec<&Load>, Vec<&Load>) =
+        profile.loads().iter().partition(|load| strip.is_below(load.height));
+    let of = |heights: [f64; 2], loads: &[&Load]| {
         let own = profile.centroid(heights);
-        let own = Weights::at(gravity * own.mass, share(own.z, below));
-        let at = |load: &&Load| Weights::at(gravity * load.moving(gravity), share(load.height, below));
+        let own = Weights::at(gravity * own.mass, strip.share(own.z));
+        let at = |load: &&Load| Weights::at(gravity * load.moving(gravity), strip.share(load.height));
         [own].into_iter().chain(loads.iter().map(at)).collect()
     };
-    vec![of([0.0, h1], &lower, true), of([h1, h], &upper, false)]
+    Ok(vec![of([0.0, h1], &lower), of([h1, h], &upper)])
 }

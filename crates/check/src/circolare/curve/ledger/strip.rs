@@ -1,6 +1,6 @@
 //! The weights of a strip of two bodies, with what each moves and rises by.
 
-use rocking_wall::wall::{Body, Load};
+use rocking_wall::wall::{Body, Load, Strip};
 
 use super::OfSide;
 use crate::circolare::curve::level;
@@ -26,32 +26,21 @@ pub(super) fn terms(body: &Body, of: OfSide<'_>) -> Vec<Term> {
     let (h, h1, sign) = (body.height, body.hinge_height, of.side.sign());
     let own = level::on_side(of.parameters, sign);
     let Some(profile) = own.profile.as_ref().filter(|_| body.overburden == 0.0) else { return Vec::new() };
-    let Ok([outer, inner]) = profile.hinge_edges(h1) else { return Vec::new() };
-    let toes = profile.toes();
-    let [base, hinge] = if sign > 0.0 { [toes[0], inner] } else { [toes[1], outer] };
-    let (gravity, h2) = (body.weight / body.mass, h - h1);
-    let term = |load: &Load, moving: f64, is_lower: bool| {
-        let (x, z) = (load.inside, load.height);
-        let [phi, rise] = if is_lower {
-            [z / h1, (x - base) / h1]
-        } else {
-            [(h - z) / h2, (hinge - base) / h1 + (hinge - x) / h2]
-        };
-        Term {
-            force: 1e-3 * load.force,
-            moving: 1e-3 * gravity * moving,
-            thrust: 1e-3 * sign * load.thrust,
-            height: z,
-            phi,
-            rho: sign * rise,
-            is_lower,
-        }
+    let Ok(strip) = Strip::new(profile, h1) else { return Vec::new() };
+    let gravity = body.weight / body.mass;
+    let term = |load: &Load, moving: f64| Term {
+        force: 1e-3 * load.force,
+        moving: 1e-3 * gravity * moving,
+        thrust: 1e-3 * sign * load.thrust,
+        height: load.height,
+        phi: strip.share(load.height),
+        rho: strip.rise(sign, load.inside, load.height),
+        is_lower: strip.is_below(load.height),
     };
-    let bodies = [([0.0, h1], true), ([h1, h], false)].map(|(heights, is_lower)| {
+    let bodies = [[0.0, h1], [h1, h]].map(|heights| {
         let own = profile.centroid(heights);
-        term(&Load::resting(gravity * own.mass, own.z, own.x), own.mass, is_lower)
+        term(&Load::resting(gravity * own.mass, own.z, own.x), own.mass)
     });
-    let loads = profile.loads().iter();
-    let loads = loads.map(|load| term(load, load.moving(gravity), load.height <= h1 + 1e-9 * h));
+    let loads = profile.loads().iter().map(|load| term(load, load.moving(gravity)));
     bodies.into_iter().chain(loads).collect()
 }
