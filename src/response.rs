@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use serde::{Serialize, Serializer};
 
-use crate::scene::{Scene, SceneError, warnings_of};
+use crate::scene::{Scene, SceneError};
 use crate::simulation::{Outputs, Simulation, segment_of};
 use crate::solver::{Demands, Work};
 use crate::wall::{Sides, Support, Warning};
@@ -229,7 +229,7 @@ impl Response {
         let residual = progress.state.displacement;
         let wall = simulation.wall();
         let of_start = wall.start_warning(scene.parameters.u_start);
-        let warnings = warnings_of(wall, scene.curve.as_ref()).cloned().chain(of_start).collect();
+        let warnings = scene.warnings_of(wall).cloned().chain(of_start).collect();
         Ok(Self { samples, summary, demands, shocks, ties, residual, warnings })
     }
 

@@ -20,7 +20,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::choices::Mechanism;
 use crate::variables::GROUPS;
-use crate::wall::{Body, COMPUTED, ParameterError, Parameters, Sides, Statics, Wall, Warning, check_points};
+use crate::wall::{Body, COMPUTED, ParameterError, Parameters, Sides, Statics, check_points};
 
 use super::keys::{Group, KINEMATICS_GROUP, MULTILINEAR};
 use super::law::Law;
@@ -139,14 +139,6 @@ impl Curve {
         }
         Some(self)
     }
-}
-
-/// Returns the warnings of a wall; that of large rotations is none of an oscillator, which does not rotate.
-pub fn warnings_of<'a>(wall: &'a Wall, curve: Option<&Curve>) -> impl Iterator<Item = &'a Warning> {
-    let is_of_oscillator = curve.is_some_and(|curve| curve.is_of_oscillator);
-    let is_told =
-        move |warning: &&Warning| !(is_of_oscillator && matches!(warning, Warning::LargeRotations { .. }));
-    wall.warnings().iter().filter(is_told)
 }
 
 /// Returns whether an oscillator has the parameter called `name`: those of a geometry are not its own.

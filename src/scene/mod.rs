@@ -27,11 +27,11 @@ use fmu_export::VariableId;
 
 use crate::simulation::Excitation;
 use crate::variables::{BooleanVariable, Mechanism, RealVariable};
-use crate::wall::{Kinematics, Parameters, usage};
+use crate::wall::{Kinematics, Parameters, Wall, Warning, usage};
 
 pub use crate::variables::GROUPS;
 pub use body::{BODIES, BodyTable, LoadTable, OF_BODY, OpeningTable, PartTable};
-pub use curve::{Curve, CurveTable, apply_curve, is_of_oscillator, warnings_of};
+pub use curve::{Curve, CurveTable, apply_curve, is_of_oscillator};
 pub use document::{Document, read_shape};
 pub use keys::{Group, KINEMATICS, POINTS, TieTables};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL};
@@ -107,6 +107,26 @@ const LONGEST_OUTPUT_STEP: f64 = 1e3;
 const MOST_POINTS: f64 = 2e7;
 
 impl Scene {
+    /// Returns whether an oscillator rocks, in place of a geometry.
+    pub fn is_of_oscillator(&self) -> bool {
+        self.curve.as_ref().is_some_and(|curve| curve.is_of_oscillator)
+    }
+
+    /// Returns the warnings of its wall; that of large rotations is none of an oscillator, which does not
+    /// rotate.
+    pub fn warnings_of<'a>(&self, wall: &'a Wall) -> impl Iterator<Item = &'a Warning> + use<'a> {
+        let is_of_oscillator = self.is_of_oscillator();
+        let is_told = move |warning: &&Warning| {
+            !(is_of_oscillator && matches!(warning, Warning::LargeRotations { .. }))
+        };
+        wall.warnings().iter().filter(is_told)
+    }
+
+    /// Returns what is improbable of its capacity curve.
+    pub fn doubts(&self) -> &[String] {
+        self.curve.as_ref().map_or(&[], |curve| &curve.doubts)
+    }
+
     /// Reads a scene file; records it names are looked up beside it.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use rocking_wall::response::Response;
-use rocking_wall::scene::{Scene, to_toml, warnings_of};
+use rocking_wall::scene::{Scene, to_toml};
 use rocking_wall::unit::UnitScene;
 use rocking_wall::wall::{Parameters, Wall, Warning};
 
@@ -264,7 +264,7 @@ fn an_oscillator_in_other_units_is_told() {
     let scene = of("[[0.02, 30000.0], [0.2, 0.0]]", 800.0);
     let wall = Wall::new(&scene.parameters).unwrap();
     assert!(wall.warnings().iter().any(|warning| matches!(warning, Warning::LargeRotations { .. })));
-    assert_eq!(warnings_of(&wall, scene.curve.as_ref()).count(), wall.warnings().len() - 1);
+    assert_eq!(scene.warnings_of(&wall).count(), wall.warnings().len() - 1);
 }
 
 /// Each side is measured by its own largest force; a law of all points has no deviation to tell.

@@ -11,7 +11,7 @@ use pyo3::types::PyDict;
 use rocking_wall::response::Response;
 use rocking_wall::scene::{
     Curve, Document, Floors, GROUPS, KINEMATICS, MotionTable, OF_BODY, POINTS, Scene, StoreyTable,
-    SupportsTable, apply_curve, parameter_text, set_names, to_toml, warnings_of,
+    SupportsTable, apply_curve, parameter_text, set_names, to_toml,
 };
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
@@ -117,7 +117,7 @@ impl Wall {
         let parameters = self.parameters().into_iter().map(|(name, text)| (name.to_owned(), text)).collect();
         let assumed = self.assumed.iter().map(|name| (*name).to_owned()).collect();
         let notes = self.scene.motion_notes.clone();
-        let is_oscillator = self.scene.curve.as_ref().is_some_and(|curve| curve.is_of_oscillator);
+        let is_oscillator = self.scene.is_of_oscillator();
         (to_toml(&self.scene, ""), parameters, self.start, motion, notes, assumed, is_oscillator)
     }
 
@@ -210,9 +210,8 @@ impl Wall {
         let Self { scene, equation, .. } = self;
         let method = Method::new(&scene.parameters, equation, scene.parameters.tolerance).map_err(refused)?;
         let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(equation));
-        let warnings = warnings_of(equation, scene.curve.as_ref()).map(ToString::to_string);
-        let of_curve = scene.curve.iter().flat_map(|curve| curve.doubts.iter().cloned());
-        let warnings = warnings.chain(of_floors).chain(of_curve).collect();
+        let warnings = scene.warnings_of(equation).map(ToString::to_string);
+        let warnings = warnings.chain(of_floors).chain(scene.doubts().iter().cloned()).collect();
         let corners = equation.capacity_corners(1.0);
         let points = corners.iter().map(|point| (point.displacement, point.force)).collect();
         let curve = with_curve(plot(&[("u > 0", points)], Vec::new()), scene.curve.as_ref()).picture();
@@ -246,8 +245,9 @@ impl Wall {
         let response = py.detach(|| Response::of(&scene)).map_err(of_scene)?;
         let of_floors = scene.floors.iter().flat_map(|floors| floors.warnings(&self.equation));
         let of_motion = scene.excitation.as_ref().and_then(Excitation::warning);
-        let of_curve = scene.curve.iter().flat_map(|curve| curve.doubts.iter().cloned());
-        let more = of_floors.chain(of_motion.map(|warning| warning.to_string())).chain(of_curve);
+        let more = of_floors
+            .chain(of_motion.map(|warning| warning.to_string()))
+            .chain(scene.doubts().iter().cloned());
         responses::values(py, &response, more)
     }
 

@@ -207,17 +207,13 @@ fn facts(scene: &Scene, wall: &Wall, response: &Response) -> String {
 /// The mechanism with its size, or the constants of an oscillator.
 fn what_rocks(scene: &Scene, wall: &Wall) -> (&'static str, String) {
     let (body, parameters) = (wall.body(), &scene.parameters);
-    if is_oscillator(scene) {
+    if scene.is_of_oscillator() {
         let [mass, participation] = [body.effective_mass, body.participation].map(|value| number(value, 6));
         return ("oscillator", format!("m_eff = {mass} kg, λ = {participation}; drawn as a rigid body"));
     }
     let mechanism = parameters.mechanism.name().replace('_', " ");
     let base = bodies::Moving::new(wall, parameters).base();
     ("wall", format!("{mechanism}, {} m × {} m", number(body.height, 6), number(base, 6)))
-}
-
-fn is_oscillator(scene: &Scene) -> bool {
-    scene.curve.as_ref().is_some_and(|curve| curve.is_of_oscillator)
 }
 
 /// A number with its unit, of both sides where they differ.
@@ -255,7 +251,7 @@ fn demands(wall: &Wall, response: &Response) -> String {
 
 /// Draws a body that is no rectangle with what its picture leaves out: forces, dimensions and its front.
 fn section(scene: &Scene, wall: &Wall) -> String {
-    if scene.parameters.is_rectangle() || is_oscillator(scene) {
+    if scene.parameters.is_rectangle() || scene.is_of_oscillator() {
         return String::new();
     }
     let svg = crate::drawing::svg(wall, &scene.parameters);

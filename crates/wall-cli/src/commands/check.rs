@@ -80,7 +80,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.check_distinct(arguments.scene.inputs(&scene).chain(&before), outputs())?;
     let code = code()?;
     console.check_distinct(&code.records().files, outputs())?;
-    console.warn(scene.curve.iter().flat_map(|curve| &curve.doubts));
+    console.warn(scene.doubts());
     warn(console, &code.records().warnings, arguments.language());
     one(console, arguments, &file, &*code, &scene)
 }

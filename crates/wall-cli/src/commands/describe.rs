@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::Args;
 use report::table::significant;
-use rocking_wall::scene::warnings_of;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{Fact, Parameters, TieNumbers, TiePart, Wall, usage};
 
@@ -59,7 +58,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     console.save(arguments.csv.as_ref(), || capacity.table().csv())?;
     console.save(arguments.drawing.as_ref(), || drawing::svg(&wall, parameters))?;
     let facts = wall.facts();
-    let warnings = warnings_of(&wall, scene.curve.as_ref()).map(ToString::to_string);
+    let warnings = scene.warnings_of(&wall).map(ToString::to_string);
     let warnings = warnings.chain(disagreement(parameters, &wall));
     let law = if parameters.multilinear.is_some() { "multilinear" } else { parameters.force_law.name() };
     let words = [

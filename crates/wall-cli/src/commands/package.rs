@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use rocking_wall::scene::{Scene, warnings_of};
+use rocking_wall::scene::Scene;
 use scene_fmu::{General, of_scene};
 
 use crate::args::warn_of_motion;
@@ -33,7 +33,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let named = || arguments.scene.display().to_string();
     let wall = scene_fmu::check(&scene).with_context(named)?;
     warn_of_motion(console, &arguments.scene, &scene);
-    console.warn(warnings_of(&wall, scene.curve.as_ref()));
+    console.warn(scene.warnings_of(&wall));
     console.warn(wall.start_warning(scene.parameters.u_start));
     let general = General::open(&base)
         .context("expected a general FMU; make it with `cargo xtask fmu`, or name it with --base")?;

@@ -5,7 +5,6 @@ mod records;
 
 use anyhow::Result;
 use rocking_wall::response::Response;
-use rocking_wall::scene::warnings_of;
 use rocking_wall::wall::{Parameters, Wall};
 
 use run::demands;
@@ -23,7 +22,7 @@ pub(crate) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let outputs = [&arguments.csv, &arguments.html];
     console.check_distinct(inputs, outputs.into_iter().flatten())?;
     let wall = arguments.scene.named(Wall::new(&scene.parameters))?;
-    console.warn(warnings_of(&wall, scene.curve.as_ref()));
+    console.warn(scene.warnings_of(&wall));
     console.warn(wall.start_warning(scene.parameters.u_start));
     let Parameters { u_start, u_dot_start, .. } = scene.parameters;
     if scene.excitation.is_none() && [u_start, u_dot_start] == [0.0; 2] {

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 use ground_motion::GroundMotion;
 use rocking_wall::response::Response;
-use rocking_wall::scene::warnings_of;
 use rocking_wall::wall::Wall;
 use run::motions::{self, MotionRow};
 use run::parallel;
@@ -32,7 +31,7 @@ pub(super) fn run(console: &Console<'_>, arguments: &Arguments) -> Result<()> {
     let wall = arguments.scene.named(Wall::new(&first.parameters))?;
     let polarities = Polarities::of(arguments.both_polarities, &first.parameters, &wall);
     let signs = polarities.signs();
-    console.warn(warnings_of(&wall, first.curve.as_ref()));
+    console.warn(first.warnings_of(&wall));
     console.warn(first.floors.iter().flat_map(|floors| floors.warnings(&wall)));
     let runs = signs.len() * motions.len();
     let row = |index: usize| {
