@@ -61,7 +61,7 @@ mod yielding_unit;
 
 /// Returns the root of the workspace.
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 /// Returns the damping models whose damping is not constant on each branch.

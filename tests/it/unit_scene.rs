@@ -1,6 +1,6 @@
 //! Tests what an FMU of a scene carries: every scene comes back bit by bit, and broken bytes are refused.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use fmu_export::{Interface, Log};
 use ground_motion::GroundMotion;
@@ -13,7 +13,7 @@ use crate::of_payload;
 
 /// The scenes of the repository.
 fn scenes() -> Vec<(PathBuf, UnitScene)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let folder = crate::root().join("scenes");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let files = files.filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
     let read = |path: PathBuf| {

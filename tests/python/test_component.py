@@ -24,7 +24,7 @@ from test_fmi3 import until_overturning
 from unit import Unit
 
 MANIFEST = Path(fmpy.__file__).parent / "schema/fmi3/fmi3LayeredStandardManifest.xsd"
-MISSING = "not run: the units have no WebAssembly component; `rustup target add wasm32-wasip2`, build again"
+MISSING = "not run: `cargo xtask portable` runs these tests, after `rustup target add wasm32-wasip2`"
 # steps of a reference case: enough for its motion, few enough for calls from Python
 STEPS = 400
 CALLS = 30_000

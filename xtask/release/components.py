@@ -88,8 +88,6 @@ def notices(found):
 
 def main(name, version, *roots):
     command = ["cargo", "metadata", "--locked", "--format-version", "1"]
-    # the components of the FMUs link what their libraries do, and wit-bindgen
-    command += ["--features", "rocking-wall/component"]
     metadata = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
     lock = tomllib.loads(Path("Cargo.lock").read_text())["package"]
     checksums = {f"{each['name']}@{each['version']}": each["checksum"] for each in lock if "checksum" in each}

@@ -10,7 +10,7 @@ const MDBOOK: &str = "0.5.4";
 
 /// Prepares the sources, builds the book and prints where it is.
 pub(crate) fn run() -> Result<()> {
-    let programs = fmu::programs("demo", &["--package", "rocking-wall-cli"])?;
+    let programs = fmu::programs("demo", &["--package", "rocking-wall-cli", "--bin", "wall"])?;
     let folder = target().join("book");
     let mut prepare = program("python3");
     prepare.arg("xtask/book/prepare.py").arg(programs.join("wall"));

@@ -6,16 +6,16 @@ use crate::command::{Result, output, read};
 use crate::fmu::{self, Fmi};
 use crate::python::Environment;
 
-/// A program that runs the wall without an FMU, and the one that packs the FMU.
-const PROGRAMS: [&str; 8] = [
-    "--package",
-    "rocking-run",
-    "--example",
-    "shaken_parapet",
-    "--package",
-    "fmu-export-build",
-    "--features",
-    "fmu-export-build/archive",
+/// The library of the FMU, the program that packs it, and one that runs the wall without an FMU. They share
+/// every crate.
+const TARGETS: [&str; 7] = [
+    "--package=rocking-wall-fmu",
+    "--lib",
+    "--package=fmu-export-build",
+    "--features=fmu-export-build/archive",
+    "--bin=fmu-pack",
+    "--package=rocking-run",
+    "--example=shaken_parapet",
 ];
 
 /// Runs the demo with the embedded motion, then with the user's record if there is one.
@@ -23,11 +23,11 @@ pub(crate) fn run(record: &[&str]) -> Result<()> {
     // side by side: one of the two waits for the network
     let (built, python) = std::thread::scope(|scope| {
         let python = scope.spawn(|| Environment::of("demo"));
-        let programs = fmu::programs("demo", &PROGRAMS);
-        let built = programs.and_then(|programs| Ok((fmu::quick_library(fmu::WALL)?, programs)));
+        let built = fmu::programs("demo", &TARGETS);
         (built, python.join().unwrap_or_else(|_| Err("a thread of the demo panicked".to_owned())))
     });
-    let ((library, programs), python) = (built?, python?);
+    let (programs, python) = (built?, python?);
+    let library = programs.join(fmu::file_name(fmu::WALL, fmu::SYSTEM));
     let unit = fmu::pack_version(fmu::WALL, &[library], &programs, Fmi::Two, &fmu::out())?;
     let out = fmu::out();
     let shake = |base: PathBuf, record: &[&str]| shake(&unit, &python, &programs, &base, record);

@@ -20,21 +20,24 @@ pub(crate) struct Unit {
 
 /// The rocking wall.
 pub(crate) const WALL: Unit =
-    Unit { package: "rocking-wall", file: "wall.fmu", description: "modelDescription" };
+    Unit { package: "rocking-wall-fmu", file: "wall.fmu", description: "modelDescription" };
 
 /// The floor for coupling with walls.
 pub(crate) const FLOOR: Unit =
-    Unit { package: "rocking-floor", file: "floor.fmu", description: "crates/floor/modelDescription" };
+    Unit { package: "rocking-floor-fmu", file: "floor.fmu", description: "crates/floor/modelDescription" };
 
 /// The example of the export layer.
 pub(crate) const BALL: Unit =
     Unit { package: "bouncing-ball", file: "ball.fmu", description: "examples/fmu" };
 
 /// All FMUs of the project.
-pub(crate) const UNITS: [Unit; 2] = [WALL, FLOOR];
+const UNITS: [Unit; 2] = [WALL, FLOOR];
 
 /// The target of WebAssembly components, and their platform in FMI 3.0.
 const COMPONENT: &str = "wasm32-wasip2";
+
+/// The profile of what is published.
+const PUBLISHED: &str = "dist";
 
 /// The beginning and ending of this machine's libraries.
 pub(crate) const SYSTEM: [&str; 2] = [std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX];
@@ -49,12 +52,13 @@ pub(crate) fn out() -> PathBuf {
 
 /// Builds an FMU for this machine into `fmu_out/` and returns its path.
 pub(crate) fn build(unit: Unit) -> Result<PathBuf> {
-    pack(unit, &[library(unit, None)?], &[], &packer()?, &out())
+    let (library, component) = (library(unit, None)?, component(unit)?);
+    pack(unit, &[library], component.as_slice(), &packer()?, &out())
 }
 
 /// Builds `fmu-pack`, and returns its folder.
 fn packer() -> Result<PathBuf> {
-    programs("dev", &["--package", "fmu-export-build", "--features", "archive"])
+    programs("dev", &["--package", "fmu-export-build", "--bin", "fmu-pack", "--features", "archive"])
 }
 
 /// Builds every FMU, for this machine or for named platforms, prints their paths and returns them.
@@ -65,7 +69,8 @@ pub(crate) fn build_all(names: Option<&str>) -> Result<Vec<PathBuf>> {
         let path = match &platforms {
             None => build(unit)?,
             Some(platforms) => {
-                let (of_2, of_3) = libraries(unit, platforms)?;
+                let (of_2, mut of_3) = libraries(unit, platforms)?;
+                of_3.extend(component(unit)?);
                 pack(unit, &of_2, &of_3, &packer()?, &out())?
             }
         };
@@ -94,16 +99,16 @@ fn libraries(unit: Unit, platforms: &[&'static Platform]) -> Result<(Vec<PathBuf
     Ok((of_2.into_values().collect(), of_3))
 }
 
-/// Builds the programs of packages with a profile, and returns their folder.
-pub(crate) fn programs(profile: &str, packages: &[&str]) -> Result<PathBuf> {
+/// Builds targets of packages with a profile, and returns the folder of what is built.
+pub(crate) fn programs(profile: &str, targets: &[&str]) -> Result<PathBuf> {
     let mut build = cargo();
-    build.args(["build", "--locked", "--bins", "--profile", profile]).args(packages);
+    build.args(["build", "--locked", "--profile", profile]).args(targets);
     succeed(&mut build, "see the compiler's message above")?;
     Ok(target().join(if profile == "dev" { "debug" } else { profile }))
 }
 
-/// Builds the library for a platform, or with this machine's own linker and C library, and without the
-/// command line's crates; returns its path.
+/// Builds the library that is published, for a platform or with this machine's own linker and C library, and
+/// without the command line's crates; returns its path.
 pub(crate) fn library(unit: Unit, platform: Option<&Platform>) -> Result<PathBuf> {
     let folder = target().join("fmu");
     let (mut build, built, names) = match platform {
@@ -114,31 +119,13 @@ pub(crate) fn library(unit: Unit, platform: Option<&Platform>) -> Result<PathBuf
         }
         Some(platform) => (platform.cargo("rustc")?, folder.join(platform.target), platform.library),
     };
-    link(build.args(["--profile", "dist"]).env("CARGO_TARGET_DIR", &folder), unit, "fmu")?;
-    Ok(built.join("dist").join(file_name(unit, names)))
+    link(build.args(["--profile", PUBLISHED]).env("CARGO_TARGET_DIR", &folder), unit)?;
+    Ok(built.join(PUBLISHED).join(file_name(unit, names)))
 }
 
-/// Builds the library for this machine as the programs of the demo are built, whose crates it shares, and
-/// returns its path. It is optimised within the crate of the unit, not across crates.
-pub(crate) fn quick_library(unit: Unit) -> Result<PathBuf> {
-    let mut build = cargo();
-    let optimised = format!("profile.demo.package.{}.opt-level=3", unit.package);
-    build.args(["rustc", "--profile", "demo", "--config", &optimised]);
-    link(&mut build, unit, "fmu")?;
-    Ok(target().join("demo").join(file_name(unit, SYSTEM)))
-}
-
-/// Builds the library for this machine as the tests are built, whose crates it shares, and returns its path.
-pub(crate) fn tested_library(unit: Unit) -> Result<PathBuf> {
-    let mut build = cargo();
-    link(build.arg("rustc").env("CARGO_INCREMENTAL", "0"), unit, "fmu")?;
-    Ok(target().join("debug").join(file_name(unit, SYSTEM)))
-}
-
-/// Links the library of a unit with some features by a prepared `cargo rustc`.
-fn link(build: &mut Command, unit: Unit, features: &str) -> Result<()> {
+/// Links the library of a unit by a prepared `cargo rustc`.
+fn link(build: &mut Command, unit: Unit) -> Result<()> {
     build.args(["--locked", "--package", unit.package, "--lib", "--crate-type", "cdylib"]);
-    build.args(["--features", features]);
     succeed(build, "see the compiler's message above")
 }
 
@@ -153,19 +140,23 @@ pub(crate) fn check_component() -> Result<()> {
     check_rust_libraries([COMPONENT], "")
 }
 
-/// Builds the WebAssembly component of a unit, and returns its path.
-pub(crate) fn component(unit: Unit) -> Result<PathBuf> {
+/// Builds the WebAssembly component of a unit, and returns its path; where this machine cannot build it, that
+/// is said.
+fn component(unit: Unit) -> Result<Option<PathBuf>> {
+    if let Err(missing) = check_component() {
+        println!("{} has no WebAssembly component: {missing}", unit.file);
+        return Ok(None);
+    }
     let folder = target().join("fmu");
     let mut build = cargo();
-    build.args(["rustc", "--profile", "dist", "--target", COMPONENT]).env("CARGO_TARGET_DIR", &folder);
+    build.args(["rustc", "--profile", PUBLISHED, "--target", COMPONENT]).env("CARGO_TARGET_DIR", &folder);
     reproducible(&mut build, &[]);
-    link(&mut build, unit, "component")?;
-    Ok(folder.join(COMPONENT).join("dist").join(file_name(unit, ["", ".wasm"])))
+    link(&mut build, unit)?;
+    Ok(Some(folder.join(COMPONENT).join(PUBLISHED).join(file_name(unit, ["", ".wasm"]))))
 }
 
 /// Zips the FMU with `fmu-pack` of a folder of programs into a folder, for FMI 2.0 of some libraries and,
-/// below `fmi3/`, for FMI 3.0 of these and more. Returns the path of the first. FMI 3.0 also gets the
-/// WebAssembly component; where this machine cannot build it, that is said.
+/// below `fmi3/`, for FMI 3.0 of these and more. Returns the path of the first.
 pub(crate) fn pack(
     unit: Unit,
     of_2: &[PathBuf],
@@ -173,12 +164,7 @@ pub(crate) fn pack(
     programs: &Path,
     folder: &Path,
 ) -> Result<PathBuf> {
-    let mut of_3 = [of_2, more].concat();
-    match check_component() {
-        Ok(()) => of_3.push(component(unit)?),
-        Err(missing) => println!("{} has no WebAssembly component: {missing}", unit.file),
-    }
-    pack_version(unit, &of_3, programs, Fmi::Three, folder)?;
+    pack_version(unit, &[of_2, more].concat(), programs, Fmi::Three, folder)?;
     pack_version(unit, of_2, programs, Fmi::Two, folder)
 }
 

@@ -38,8 +38,8 @@ The jobs of the project: cargo xtask JOB [OPTIONS]
   demo        [RECORD [UNIT]] build the FMU, run it in FMPy under the synthetic motion and, if given, a record
               (UNIT if the file states none); write histories and pages to fmu_out/
   test        run every test: Rust, the FMU through FMPy, the Python package, the C interface against fmi-sys
-  portable    build the FMUs for Linux, Windows and macOS and test them: in FMPy, and the Windows library
-              under wine
+  portable    build the FMUs for Linux, Windows, macOS and WebAssembly, and the playground, as published, and
+              test them: in FMPy, the Windows library under wine, the component in wasmtime
   costs       [JOB ...] [--against COMMIT] measure the CPU time of demo, test, install and wheel from nothing;
               write docs/costs.md and docs/costs.csv; --check JOB=SECONDS ...: compare with the last month
   package     pack the crates as a registry gets them into target/package, and build each from its archive

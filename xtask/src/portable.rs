@@ -1,16 +1,18 @@
-//! `cargo xtask portable`: builds the FMUs of every platform, and tests them as far as this machine can.
+//! `cargo xtask portable`: builds the FMUs of every platform and the playground as they are published, and
+//! tests them as far as this machine can.
 
 use std::path::Path;
 
 use crate::command::{Result, cargo, find, root, succeed, target};
 use crate::fmu;
 use crate::platform::Platform;
+use crate::playground;
 use crate::python::Environment;
 use crate::test::{pytest, records, with_libclang};
 
-/// Builds the FMUs for all platforms into `fmu_out/` and tests them: the Linux library in FMPy, the Windows
-/// library and `wall.exe` under wine; the macOS library is only inspected. The importer `fmi` drives the
-/// Linux library from Rust.
+/// Builds the FMUs for all platforms and the playground into `fmu_out/` and tests them: the Linux library in
+/// FMPy, the WebAssembly component in wasmtime, the Windows library and `wall.exe` under wine; the macOS
+/// library is only inspected. The importer `fmi` drives the Linux library from Rust.
 pub(crate) fn run() -> Result<()> {
     fmu::build_all(Some(fmu::PORTABLE))?;
     succeed(cargo().args(["build", "--locked", "--bin", "wall"]), "see the compiler's message above")?;
@@ -38,6 +40,12 @@ pub(crate) fn run() -> Result<()> {
         pytest.env(name, path);
     }
     pytest.env("WINEDEBUG", "-all");
+    match playground::check_target() {
+        Ok(()) => {
+            pytest.env("ROCKING_WALL_PLAYGROUND", playground::build()?);
+        }
+        Err(message) => println!("not run: the playground: {message}"),
+    }
     succeed(&mut pytest, "see the failures above")?;
     let mut importer = cargo();
     importer.args(["test", "--locked", "--manifest-path", "tests/importer/Cargo.toml"]);

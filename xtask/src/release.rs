@@ -16,7 +16,8 @@ use crate::wheel;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Packages that are linked into the files.
-const LINKED: [&str; 4] = ["rocking-wall-cli", "rocking-wall", "rocking-floor", "rocking-wall-python"];
+const LINKED: [&str; 4] =
+    ["rocking-wall-cli", "rocking-wall-fmu", "rocking-floor-fmu", "rocking-wall-python"];
 
 /// Builds the FMUs (those of FMI 3.0 begin with `fmi3-`), the program for each platform, the Python package
 /// for all but Windows and as sources, the list of components (SBOM), the notices of third parties and the
@@ -127,8 +128,16 @@ fn wall(platform: &Platform) -> Result<(PathBuf, &'static str)> {
 }
 
 /// Packages that are not published: `publish = false` in their manifests, which a test compares.
-const KEPT: [&str; 5] =
-    ["bouncing-ball", "conformance", "rocking-playground", "rocking-wall-python", "xtask"];
+const KEPT: [&str; 8] = [
+    "bouncing-ball",
+    "conformance",
+    "rocking-floor-fmu",
+    "rocking-playground",
+    "rocking-wall-fmu",
+    "rocking-wall-python",
+    "rocking-wall-tests",
+    "xtask",
+];
 
 /// Packs every crate that is published into `target/package/`, in the order of their dependencies, and builds
 /// each from its archive alone against the archives before it.

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 
-use crate::command::{Result, cargo, children_seconds, find, output, program, root, succeed, target};
+use crate::command::{
+    Result, cargo, children_seconds, find, make_folder, output, program, root, succeed, target,
+};
 use crate::fmu::{self, Fmi};
 use crate::playground;
 use crate::python::Environment;
@@ -66,8 +68,7 @@ fn not_run() -> Vec<String> {
         (!records().is_dir()).then(|| of_records.to_owned()),
         browser().is_none().then(|| of_browser.to_owned()),
         playground::check_target().err().map(|message| format!("the playground: {message}")),
-        fmu::check_component().err().map(|message| format!("the WebAssembly component: {message}")),
-        Some("the FMUs of other platforms: `cargo xtask portable`".to_owned()),
+        Some("the FMUs of other platforms, and what is published: `cargo xtask portable`".to_owned()),
     ];
     lines.into_iter().flatten().collect()
 }
@@ -88,13 +89,8 @@ fn prepare() {
     for name in ["tests", "maturin", "wheel", "bare", "masters", "clang"] {
         let _ = Environment::of(name);
     }
-    for unit in fmu::UNITS {
-        if fmu::check_component().is_ok() {
-            let _ = fmu::component(unit);
-        }
-    }
     if playground::check_target().is_ok() {
-        let _ = playground::build();
+        let _ = page();
     }
 }
 
@@ -116,9 +112,19 @@ pub(crate) fn pytest(python: &Environment, folder: &str, sharing: Option<&str>) 
     pytest
 }
 
+/// All packages but that of the component, which brings a generator of bindings.
+const PACKAGES: [&str; 3] = ["--workspace", "--exclude", "fmu-component"];
+/// One of these, which needs libclang: what it shares with the others is built with the same features.
+const CONFORMANCE: &str = "conformance";
+
 fn rust() -> Result<()> {
-    // all packages, even where a test of one fails; that of the component brings a generator of bindings
-    let packages = ["--workspace", "--exclude", "conformance", "--exclude", "fmu-component"];
+    // the libraries of the FMUs too, which `cargo test` does not build
+    let targets = ["--lib", "--bins", "--examples", "--tests"];
+    let packages = PACKAGES.iter().chain(&["--exclude", CONFORMANCE]);
+    succeed(
+        build().args(["build", "--locked"]).args(packages.clone()).args(targets),
+        "see its message above",
+    )?;
     run_tests(build().args(["test", "--locked", "--no-fail-fast"]).args(packages))
 }
 
@@ -133,25 +139,37 @@ fn examples() -> Result<()> {
     Ok(())
 }
 
-/// Returns the folder of the programs and examples that `cargo test` has built.
+/// Returns the folder of the programs, examples and libraries that the Rust tests have built.
 fn programs() -> PathBuf {
     target().join("debug")
 }
 
-/// Packs an FMU of the library that the tests' profile gives; `cargo xtask portable` tests the released ones.
+/// Packs an FMU of the library that was built with the tests; `cargo xtask portable` tests the published one.
 fn packed(unit: fmu::Unit) -> Result<PathBuf> {
-    fmu::pack(unit, &[fmu::tested_library(unit)?], &[], &programs(), &folder())
+    fmu::pack(unit, &[library(unit)], &[], &programs(), &folder())
 }
 
-/// The folder of the FMUs that are tested.
+/// Returns the path of the library of an FMU that was built with the tests.
+fn library(unit: fmu::Unit) -> PathBuf {
+    programs().join(fmu::file_name(unit, fmu::SYSTEM))
+}
+
+/// Builds the playground that is tested; `cargo xtask portable` tests the published one.
+fn page() -> Result<PathBuf> {
+    let page = folder().join("playground.html");
+    make_folder(&folder())?;
+    playground::pack("demo", &page)?;
+    Ok(page)
+}
+
+/// The folder of the FMUs and the page that are tested.
 fn folder() -> PathBuf {
     target().join("tested")
 }
 
-/// Packs the FMU of the example, of a library that takes a second to build, and returns its path.
+/// Packs the FMU of the example, and returns its path.
 fn example() -> Result<PathBuf> {
-    succeed(build().args(["build", "--locked", "--package", "bouncing-ball"]), "see its message above")?;
-    let library = programs().join(fmu::file_name(fmu::BALL, fmu::SYSTEM));
+    let library = library(fmu::BALL);
     fmu::pack_version(fmu::BALL, std::slice::from_ref(&library), &programs(), Fmi::Three, &folder())?;
     fmu::pack_version(fmu::BALL, &[library], &programs(), Fmi::Two, &folder())
 }
@@ -165,7 +183,7 @@ fn python() -> Result<()> {
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
     pytest.env("ROCKING_WALL_BALL", example()?);
     if playground::check_target().is_ok() {
-        pytest.env("ROCKING_WALL_PLAYGROUND", playground::build()?);
+        pytest.env("ROCKING_WALL_PLAYGROUND", page()?);
     }
     succeed(&mut pytest, "see the failures above")
 }
@@ -200,7 +218,8 @@ fn masters() -> Result<()> {
 /// Compares the functions that the crates export with those of the standard's headers.
 fn conformance() -> Result<()> {
     let mut test = build();
-    test.args(["test", "--locked", "--no-fail-fast", "--package", "conformance"]);
+    test.args(["test", "--locked", "--no-fail-fast"]).args(PACKAGES);
+    test.args(["--test", "signatures", "--test", "signatures3"]);
     run_tests(with_libclang(&mut test)?)
 }
 

@@ -51,9 +51,3 @@ pub mod variables {
 
     include!(concat!(env!("OUT_DIR"), "/variables.rs"));
 }
-
-#[cfg(feature = "fmu")]
-fmu_export::export_fmu!(unit::Unit, co_simulation + model_exchange);
-
-#[cfg(feature = "component")]
-fmu_component::export_component!(unit::Unit);

@@ -65,8 +65,8 @@ impl<M: ModelExchange> bindings::exports::fmi::fmi3::common::Guest for Component
 /// It belongs into a `cdylib` for the target `wasm32-wasip2`, once, instead of the C functions:
 ///
 /// ```text
-/// #[cfg(feature = "component")]
-/// fmu_component::export_component!(crate::Spring);
+/// #[cfg(target_family = "wasm")]
+/// fmu_component::export_component!(spring::Spring);
 /// ```
 #[macro_export]
 macro_rules! export_component {

@@ -13,7 +13,6 @@ use crate::number::Vectors;
 use crate::number::{BranchRow, Eight, LaneRow, MOST_BRANCHES, Number, WIDTH};
 use crate::run::{BatchRun, NoObserver, Outcome, RunEnd, RunStart};
 use crate::solver::RecordSolver;
-use crate::together::in_lanes;
 
 mod peaks;
 mod together;
@@ -54,12 +53,10 @@ fn whole(solver: &RecordSolver<'_>, start: RunStart, forcing: Forcing<'_>) -> Ou
 
 /// Moves walls side by side with the vectors that every processor has.
 fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
-    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
     let record = Blocks::on(solver, forcing, Vectors::widest());
     let kind = record.common(solver).expect("a wall for lanes");
     let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
-    let outcomes = in_lanes(simd, kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver));
-    outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions")
+    work::followed(kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver), &|waiting| waiting)
 }
 
 /// Factors of the forcing, more than there are lanes.

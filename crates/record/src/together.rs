@@ -86,7 +86,7 @@ fn follow(
 }
 
 /// Follows runs side by side.
-pub(crate) fn in_lanes<S: Simd>(
+fn in_lanes<S: Simd>(
     simd: S,
     kind: Common<'_>,
     lanes: Lanes<'_, NoObserver>,

@@ -8,7 +8,7 @@ use std::mem::{align_of, offset_of, size_of};
 
 use fmi_sys::fmi2 as standard;
 use fmu_export::ffi::types as own;
-use rocking_floor::fmi2 as exported;
+use rocking_floor_fmu::fmi2 as exported;
 
 macro_rules! same_type {
     ($($function:ident: $kind:ident),* $(,)?) => {

@@ -6,7 +6,7 @@
 
 use fmi_sys::fmi3 as standard;
 use fmu_export::ffi::types as common;
-use rocking_floor::fmi3 as exported;
+use rocking_floor_fmu::fmi3 as exported;
 
 macro_rules! same_types {
     ($($function:ident: $kind:ident),* $(,)?) => {

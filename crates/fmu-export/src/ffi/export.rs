@@ -5,14 +5,13 @@
 /// 44. A model for both also gets all 75 functions of FMI 3.0, in a module `fmi3`: one library then serves
 /// the FMUs of both versions.
 ///
-/// It belongs into a `cdylib`, once, and best behind a feature: a program can only hold one set of these
-/// names.
+/// It belongs into a `cdylib`, once, and best into a crate of its own: a program can only hold one set of
+/// these names.
 ///
 /// ```text
-/// #[cfg(feature = "fmu")]
-/// fmu_export::export_fmu!(crate::Spring);
-/// fmu_export::export_fmu!(crate::Spring, co_simulation + model_exchange);
-/// fmu_export::export_fmu!(crate::Spring, model_exchange);
+/// fmu_export::export_fmu!(spring::Spring);
+/// fmu_export::export_fmu!(spring::Spring, co_simulation + model_exchange);
+/// fmu_export::export_fmu!(spring::Spring, model_exchange);
 /// ```
 #[macro_export]
 macro_rules! export_fmu {

@@ -12,6 +12,9 @@ pub(crate) fn folder() -> Option<PathBuf> {
         );
         return Some(folder);
     }
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("../shared/records");
+    // several packages have this file
+    let mut folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    let root = folders.find(|folder| folder.join("Cargo.lock").is_file()).expect("a workspace");
+    let folder = root.join("../shared/records");
     folder.join("index.csv").is_file().then_some(folder)
 }

@@ -22,9 +22,33 @@ struct Counts {
     overturned: usize,
 }
 
+/// Follows runs as `together::in_lanes` does, with the vectors that every processor has; `see` is shown which
+/// lanes wait after each call. Tests of results and of work share one, which takes long to compile.
+pub(super) fn followed(
+    kind: Common<'_>,
+    lanes: Lanes<'_, NoObserver>,
+    see: &dyn Fn(Waiting) -> Waiting,
+) -> Vec<Outcome> {
+    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
+    let outcomes = match kind {
+        Common::Prepared(_) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
+            see(lanes.affine_steps::<Eight<_, true>>(simd, 0, busy))
+        }),
+        Common::Affine { .. } => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
+            see(lanes.affine_steps::<Eight<_, false>>(simd, 0, busy))
+        }),
+        Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
+            see(lanes.take_parts::<Eight<_, false>, ByRatio>(simd, 0, busy))
+        }),
+        Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
+            see(lanes.take_parts::<Eight<_, false>, ByStiffness>(simd, 0, busy))
+        }),
+    };
+    outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions")
+}
+
 /// Follows a wall under 21 factors by the vectors that every processor has.
 fn counts(model: DampingModel, impact: Impact) -> Counts {
-    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
     let motion = losing(0.018, model, impact);
     // rounded, so that another library of sines changes no count
     let samples: Vec<f64> = shaking().iter().map(|p| (p * 1_048_576.0).round() / 1_048_576.0).collect();
@@ -39,20 +63,9 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
         to_resolve.set(to_resolve.get() + waiting.to_resolve.count_ones());
         waiting
     };
-    let outcomes = match record.common(&solver).expect("a wall for lanes") {
-        Common::Prepared(_) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
-            count(lanes.affine_steps::<Eight<_, true>>(simd, 0, busy))
-        }),
-        Common::Affine { .. } => unreachable!("the record is prepared for the wall"),
-        Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
-            count(lanes.take_parts::<Eight<_, false>, ByRatio>(simd, 0, busy))
-        }),
-        Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
-            count(lanes.take_parts::<Eight<_, false>, ByStiffness>(simd, 0, busy))
-        }),
-    };
-    let outcomes: Result<Vec<_>, _> = outcomes.into_iter().collect();
-    let outcomes = outcomes.expect("bounded motions");
+    let kind = record.common(&solver).expect("a wall for lanes");
+    assert!(!matches!(kind, Common::Affine { .. }), "the record is prepared for the wall");
+    let outcomes = followed(kind, lanes, &count);
     let sum = |of: fn(&Outcome) -> u64| outcomes.iter().map(of).sum();
     Counts {
         rounds: rounds.get(),
