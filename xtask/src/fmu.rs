@@ -36,9 +36,6 @@ const UNITS: [Unit; 2] = [WALL, FLOOR];
 /// The target of WebAssembly components, and their platform in FMI 3.0.
 const COMPONENT: &str = "wasm32-wasip2";
 
-/// The profile of what is published.
-const PUBLISHED: &str = "dist";
-
 /// The beginning and ending of this machine's libraries.
 pub(crate) const SYSTEM: [&str; 2] = [std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX];
 
@@ -119,8 +116,8 @@ pub(crate) fn library(unit: Unit, platform: Option<&Platform>) -> Result<PathBuf
         }
         Some(platform) => (platform.cargo("rustc")?, folder.join(platform.target), platform.library),
     };
-    link(build.args(["--profile", PUBLISHED]).env("CARGO_TARGET_DIR", &folder), unit)?;
-    Ok(built.join(PUBLISHED).join(file_name(unit, names)))
+    link(build.args(["--profile", "dist"]).env("CARGO_TARGET_DIR", &folder), unit)?;
+    Ok(built.join("dist").join(file_name(unit, names)))
 }
 
 /// Links the library of a unit by a prepared `cargo rustc`.
@@ -149,10 +146,10 @@ fn component(unit: Unit) -> Result<Option<PathBuf>> {
     }
     let folder = target().join("fmu");
     let mut build = cargo();
-    build.args(["rustc", "--profile", PUBLISHED, "--target", COMPONENT]).env("CARGO_TARGET_DIR", &folder);
+    build.args(["rustc", "--profile", "dist", "--target", COMPONENT]).env("CARGO_TARGET_DIR", &folder);
     reproducible(&mut build, &[]);
     link(&mut build, unit)?;
-    Ok(Some(folder.join(COMPONENT).join(PUBLISHED).join(file_name(unit, ["", ".wasm"]))))
+    Ok(Some(folder.join(COMPONENT).join("dist").join(file_name(unit, ["", ".wasm"]))))
 }
 
 /// Zips the FMU with `fmu-pack` of a folder of programs into a folder, for FMI 2.0 of some libraries and,

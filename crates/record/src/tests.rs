@@ -7,12 +7,14 @@ use rocking_wall::solver::{Memo, Motion, Peaks, State, Work};
 use rocking_wall::wall::{Parameters, Support};
 
 use crate::blocks::Blocks;
+use crate::common::Common;
 use crate::forcing::Forcing;
-use crate::lanes::{Block, Lanes};
+use crate::lanes::{Block, Lanes, Waiting};
 use crate::number::Vectors;
 use crate::number::{BranchRow, Eight, LaneRow, MOST_BRANCHES, Number, WIDTH};
 use crate::run::{BatchRun, NoObserver, Outcome, RunEnd, RunStart};
 use crate::solver::RecordSolver;
+use crate::together::in_lanes;
 
 mod peaks;
 mod together;
@@ -56,7 +58,18 @@ fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) 
     let record = Blocks::on(solver, forcing, Vectors::widest());
     let kind = record.common(solver).expect("a wall for lanes");
     let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
-    work::followed(kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver), &|waiting| waiting)
+    followed(kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver), &|waiting| waiting)
+}
+
+/// Follows runs with the vectors that every processor has. `see` is a reference, so that all tests share one
+/// instance, which takes seconds to compile.
+fn followed(
+    kind: Common<'_>,
+    lanes: Lanes<'_, NoObserver>,
+    see: &dyn Fn(Waiting) -> Waiting,
+) -> Vec<Outcome> {
+    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
+    in_lanes(simd, kind, lanes, see).into_iter().collect::<Result<_, _>>().expect("bounded motions")
 }
 
 /// Factors of the forcing, more than there are lanes.

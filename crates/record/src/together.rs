@@ -5,7 +5,7 @@ use rocking_wall::solver::SolverError;
 use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 
 use crate::common::Common;
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Waiting};
 use crate::number::{Eight, Vectors};
 use crate::run::{BatchRun, NoObserver, Outcome, RunEnd};
 use crate::table::{Law, Stepping};
@@ -76,20 +76,23 @@ fn follow(
     side_by_side: Option<(Vectors, Common<'_>)>,
     lanes: Lanes<'_, NoObserver>,
 ) -> Vec<Result<Outcome, SolverError>> {
+    #[cfg(target_arch = "x86_64")]
+    let unseen = |waiting| waiting;
     match side_by_side {
         #[cfg(target_arch = "x86_64")]
-        Some((Vectors::Avx2(simd), kind)) => in_lanes(simd, kind, lanes),
+        Some((Vectors::Avx2(simd), kind)) => in_lanes(simd, kind, lanes, unseen),
         #[cfg(target_arch = "x86_64")]
-        Some((Vectors::Avx512(simd), kind)) => in_lanes(simd, kind, lanes),
+        Some((Vectors::Avx512(simd), kind)) => in_lanes(simd, kind, lanes, unseen),
         _ => lanes.one_by_one(),
     }
 }
 
-/// Follows runs side by side.
-fn in_lanes<S: Simd>(
+/// Follows runs side by side; `see` is shown which lanes wait after each call, and returns it.
+pub(crate) fn in_lanes<S: Simd>(
     simd: S,
     kind: Common<'_>,
     lanes: Lanes<'_, NoObserver>,
+    see: impl Fn(Waiting) -> Waiting,
 ) -> Vec<Result<Outcome, SolverError>> {
     simd.vectorize(
         #[inline(always)]
@@ -97,22 +100,22 @@ fn in_lanes<S: Simd>(
             Common::Prepared(_) => lanes.side_by_side(
                 Stepping::Affine,
                 #[inline(always)]
-                |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy),
+                |lanes, busy| see(lanes.affine_steps::<Eight<S, true>>(simd, 0, busy)),
             ),
             Common::Affine { .. } => lanes.side_by_side(
                 Stepping::Affine,
                 #[inline(always)]
-                |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy),
+                |lanes, busy| see(lanes.affine_steps::<Eight<S, false>>(simd, 0, busy)),
             ),
             Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(
                 Stepping::Curved,
                 #[inline(always)]
-                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy),
+                |lanes, busy| see(lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy)),
             ),
             Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(
                 Stepping::Curved,
                 #[inline(always)]
-                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy),
+                |lanes, busy| see(lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy)),
             ),
         },
     )

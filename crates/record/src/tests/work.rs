@@ -3,12 +3,7 @@
 
 use std::cell::Cell;
 
-use rocking_wall::solver::secant::{ByRatio, ByStiffness};
-
 use super::*;
-use crate::common::Common;
-use crate::lanes::Waiting;
-use crate::table::{Law, Stepping};
 
 /// What a batch takes.
 #[derive(Debug, PartialEq)]
@@ -20,31 +15,6 @@ struct Counts {
     pieces: u64,
     corners: u64,
     overturned: usize,
-}
-
-/// Follows runs as `together::in_lanes` does, with the vectors that every processor has; `see` is shown which
-/// lanes wait after each call. Tests of results and of work share one, which takes long to compile.
-pub(super) fn followed(
-    kind: Common<'_>,
-    lanes: Lanes<'_, NoObserver>,
-    see: &dyn Fn(Waiting) -> Waiting,
-) -> Vec<Outcome> {
-    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
-    let outcomes = match kind {
-        Common::Prepared(_) => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
-            see(lanes.affine_steps::<Eight<_, true>>(simd, 0, busy))
-        }),
-        Common::Affine { .. } => lanes.side_by_side(Stepping::Affine, |lanes, busy| {
-            see(lanes.affine_steps::<Eight<_, false>>(simd, 0, busy))
-        }),
-        Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
-            see(lanes.take_parts::<Eight<_, false>, ByRatio>(simd, 0, busy))
-        }),
-        Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(Stepping::Curved, |lanes, busy| {
-            see(lanes.take_parts::<Eight<_, false>, ByStiffness>(simd, 0, busy))
-        }),
-    };
-    outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions")
 }
 
 /// Follows a wall under 21 factors by the vectors that every processor has.
