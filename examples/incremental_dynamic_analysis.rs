@@ -9,13 +9,13 @@
 
 use std::error::Error;
 
+use fragility::{Sample, fit};
 use ground_motion::SyntheticMotion;
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::Parameters;
 use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
-use study::fragility::{Sample, fit};
 use study::ida::{Crossing, IntensityMeasure, Levels, Study};
 
 fn main() -> Result<(), Box<dyn Error>> {

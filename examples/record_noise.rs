@@ -11,11 +11,11 @@
 use std::error::Error;
 use std::path::Path;
 
+use fragility::{Lognormal, Sample, fit};
 use ground_motion::GroundMotion;
 use run::records::NamedRecord;
 use run::sample::Pcg;
 use study::codes::NoCodes;
-use study::fragility::{Lognormal, Sample, fit};
 use study::ida::{Crossing, Curve, Exceedance, Study};
 use study::loaded::LoadedStudy;
 

@@ -8,11 +8,12 @@ use std::{fs, io};
 
 /// The solvers and what they use, the levels and models of a study, and the versions of the crates of others.
 /// A module or crate that a run comes to depend on belongs here.
-const SOURCES: [&str; 12] = [
+const SOURCES: [&str; 13] = [
     "../../Cargo.lock",
     "../../modelDescription/modelDescription.xml",
     "../../src",
     "../files/src",
+    "../fragility/src/curve.rs",
     "../ground-motion/src",
     "../oscillator/src",
     "../record/src",

@@ -2,14 +2,14 @@
 
 use check::CheckError;
 use files::FileError;
+use fragility::FitError;
+use fragility::hazard::HazardError;
 use ground_motion::GroundMotionError;
 use rocking_wall::scene::SceneError;
 use rocking_wall::solver::SolverError;
 use rocking_wall::wall::ParameterError;
 use run::rotations::RotationsError;
 use study::calibration::CalibrationError;
-use study::fragility::FitError;
-use study::hazard::HazardError;
 use study::spectrum::SpectrumError;
 
 /// Why something could not be computed or compared.

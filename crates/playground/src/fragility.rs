@@ -1,5 +1,6 @@
 //! The fragility of a wall under twenty synthetic motions.
 
+use fragility::{Bootstrap, Dispersion, Estimator, Sample, Summary, compare};
 use ground_motion::{STANDARD_GRAVITY, SyntheticMotion};
 use report::number;
 use report::plot::{Axis, Plot, Series};
@@ -10,7 +11,6 @@ use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
 use serde_json::{Value, json};
-use study::fragility::{Bootstrap, Dispersion, Estimator, Sample, Summary, compare};
 use study::ida::{Crossing, Curve, IntensityMeasure, Levels, Study};
 
 /// Synthetic motions, with the seeds 1, 2, …

@@ -6,7 +6,7 @@
 
 use check::{Code, Rule, Subject};
 
-use study::fragility::Lognormal;
+use fragility::Lognormal;
 
 /// Numbers at which a factor is tried, on each side of that of the code, and how many double it.
 const TRIED: i32 = 9;

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use fragility::Interval;
+use fragility::hazard::HazardCurve;
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::table::{Cell, Digits, Table};
@@ -9,8 +11,6 @@ use run::sample::{fractile, sorted};
 
 use crate::class::{Class, FRACTILES, grouped};
 use crate::wall::WallReliability;
-use study::fragility::Interval;
-use study::hazard::HazardCurve;
 
 const THREE: Digits = Digits::Significant(3);
 /// Digits of the numbers that the code or the user gives.

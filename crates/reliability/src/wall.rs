@@ -7,7 +7,7 @@ use rocking_wall::wall::Wall;
 use run::sample::sorted;
 use run::walls::NamedWall;
 
-use study::fragility::{CONFIDENCE, Interval, Lognormal, Summary, cumulative};
+use fragility::{CONFIDENCE, Interval, Lognormal, Summary, cumulative};
 use study::ida::{Crossing, Curve, Exceedance};
 use study::results::Fitting;
 

@@ -7,8 +7,6 @@
 //! | module | holds |
 //! |---|---|
 //! | [`ida`] | incremental dynamic analysis: walls × records × damping models |
-//! | [`fragility`] | fragilities of their limit states, with bootstrap intervals |
-//! | [`hazard`] | hazard curves, and the annual rate of a fragility |
 //! | [`uncertain`] | samples of uncertain parameters, and which of them explains θ |
 //! | [`measures`] | which intensity measure to choose |
 //! | [`codes`] | what a study asks of building codes |
@@ -26,8 +24,6 @@ pub mod codes;
 pub mod document;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod folder;
-pub mod fragility;
-pub mod hazard;
 pub mod ida;
 pub mod loaded;
 pub mod measures;

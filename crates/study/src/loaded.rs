@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use files::{FileError, Place, read_text};
+use fragility::{FEWEST_RECORDS, Weights};
 use ground_motion::GroundMotionError;
+use report::counted;
 use rocking_wall::scene::SceneError;
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use run::model::Model;
@@ -13,10 +15,8 @@ use run::walls::{NamedWall, assumed, check_unique, defaults, walls};
 
 use crate::codes::Codes;
 use crate::document::{CompareEntry, ReportOptions, StudyFile, WallClass};
-use crate::fragility::{FEWEST_RECORDS, Weights};
 use crate::ida::{IntensityMeasure, Misfit, Polarity, Study};
 use crate::uncertain::Uncertain;
-use report::counted;
 
 /// Largest study file that is read.
 const MAX_FILE_BYTES: u64 = 4 << 20;

@@ -1,10 +1,11 @@
 //! The results of a study, wall by wall: its curves, and the fragilities that follow from them.
 
-use crate::document::ReportOptions;
-use crate::fragility::{
+use fragility::{
     Bootstrap, Cloud, Dispersion, Estimator, FitError, Lognormal, Sample, Summary, Weights, compare,
     compare_clouds, fit,
 };
+
+use crate::document::ReportOptions;
 use crate::ida::{Crossing, Curve, Exceedance, Layout, Polarity};
 
 /// Makes the results of each wall of a study.
@@ -108,7 +109,9 @@ impl Fitting {
         let summaries = self.summaries(&curves, &self.fractions);
         let state = |(state, summaries): (usize, Vec<Summary>)| {
             let of_model = |(model, summary): (usize, Summary)| {
-                let fit = |samples: &Vec<Vec<Sample>>| self.bootstrap.correct(fit(&samples[model][state]));
+                let fit = |samples: &Vec<Vec<Sample>>| {
+                    fit(&samples[model][state]).map(|curve| self.bootstrap.correct(curve))
+                };
                 let [a, b, c] = &all;
                 // the single run of a record in a cloud tells no crossing
                 let none = [Err(FitError::Cloud); 3];

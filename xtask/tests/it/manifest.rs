@@ -179,7 +179,7 @@ fn every_crate_has_what_a_registry_shows() {
 }
 
 /// What each crate may know of the others.
-const KNOWN: [(&str, &str); 22] = [
+const KNOWN: [(&str, &str); 23] = [
     ("fmu-export", ""),
     ("fmu-component", "fmu-export"),
     ("fmu-export-build", "fmu-export"),
@@ -197,13 +197,16 @@ const KNOWN: [(&str, &str); 22] = [
         "rocking-check",
         "fmu-export ground-motion rocking-files rocking-record rocking-report rocking-run rocking-wall",
     ),
+    ("rocking-fragility", "rocking-files rocking-report rocking-run"),
     (
         "rocking-study",
-        "fmu-export ground-motion rocking-files rocking-record rocking-report rocking-run rocking-wall",
+        "fmu-export ground-motion rocking-files rocking-fragility rocking-record rocking-report rocking-run \
+         rocking-wall",
     ),
     (
         "rocking-reliability",
-        "ground-motion rocking-check rocking-files rocking-report rocking-run rocking-study rocking-wall",
+        "ground-motion rocking-check rocking-files rocking-fragility rocking-report rocking-run \
+         rocking-study rocking-wall",
     ),
     ("rocking-scene-fmu", "fmu-export-build ground-motion rocking-wall"),
     (
@@ -213,12 +216,13 @@ const KNOWN: [(&str, &str); 22] = [
     ),
     (
         "rocking-evidence",
-        "fmu-export ground-motion rocking-check rocking-files rocking-record rocking-report rocking-run \
-         rocking-study rocking-wall",
+        "fmu-export ground-motion rocking-check rocking-files rocking-fragility rocking-record \
+         rocking-report rocking-run rocking-study rocking-wall",
     ),
     (
         "rocking-playground",
-        "fmu-export ground-motion rocking-check rocking-report rocking-run rocking-study rocking-wall",
+        "fmu-export ground-motion rocking-check rocking-fragility rocking-report rocking-run rocking-study \
+         rocking-wall",
     ),
     (
         "rocking-wall-python",

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::{cargo, read};
 
 /// Crates that programs above the unit link, and the unit must not.
-const ABOVE_THE_UNIT: [&str; 13] = [
+const ABOVE_THE_UNIT: [&str; 14] = [
     "argmin",
     "clap",
     "fearless_simd",
@@ -14,6 +14,7 @@ const ABOVE_THE_UNIT: [&str; 13] = [
     "rocking-building",
     "rocking-check",
     "rocking-evidence",
+    "rocking-fragility",
     "rocking-record",
     "rocking-reliability",
     "rocking-run",

@@ -2,6 +2,7 @@
 
 use std::num::NonZeroUsize;
 
+use fragility::{Bootstrap, Dispersion, Estimator, Interval, Sample, Summary, compare};
 use ground_motion::STANDARD_GRAVITY;
 use report::counted;
 use report::plot::{Axis, Plot, Series};
@@ -12,7 +13,6 @@ use run::model::{Model, color};
 use run::records::NamedRecord;
 use run::sample::sorted;
 use run::walls::NamedWall;
-use study::fragility::{Bootstrap, Dispersion, Estimator, Interval, Sample, Summary, compare};
 use study::ida::{Case, Crossing, Exceedance, IdaError, IntensityMeasure, Levels, Study};
 
 use super::figure::Figure;

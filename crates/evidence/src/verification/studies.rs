@@ -2,20 +2,20 @@
 
 use std::f64::consts::TAU;
 
+use check::fractions::{Demand, Fractions, check};
+use fragility::hazard::HazardCurve;
+use fragility::{FragilityFunction, Lognormal, Sample, fit};
 use ground_motion::{GroundMotion, Spectrum, Storey, Storeys, spectrum::AVERAGE_PERIODS};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
 use rocking_wall::variables::{ForceLaw, Mechanism};
 use rocking_wall::wall::{Parameters, Wall, equivalence};
+use study::ida::Exceedance;
 
 use super::given::{Comparisons, SIX_DIGITS, within};
 use super::overturning::rigid;
 use super::{circolare, overturning, paper};
 use crate::Comparison;
-use check::fractions::{Demand, Fractions, check};
-use study::fragility::{FragilityFunction, Lognormal, Sample, fit};
-use study::hazard::HazardCurve;
-use study::ida::Exceedance;
 
 /// A name in `formulas.toml`, and what computes the numbers of a formula that no scene shows.
 type Study = (&'static str, fn() -> Comparisons);

@@ -6,10 +6,10 @@
 use std::path::PathBuf;
 
 use evidence::reproduce::collapse::figure_15;
+use fragility::Summary;
 use ground_motion::{RecordOptions, SyntheticMotion, read};
 use run::parallel::threads;
 use run::records::NamedRecord;
-use study::fragility::Summary;
 
 use crate::records::folder;
 

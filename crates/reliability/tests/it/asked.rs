@@ -5,11 +5,11 @@ use std::fs;
 use std::path::PathBuf;
 
 use check::{CheckFile, Rule, Subject, WallCodes, read};
+use fragility::{Lognormal, cumulative};
 use ground_motion::STANDARD_GRAVITY;
 use reliability::{Codes, FILES, Reliability, finish};
 use run::records::NamedRecord;
 use study::folder::{Contents, Folder, Report, compute};
-use study::fragility::{Lognormal, cumulative};
 use study::loaded::LoadedStudy;
 
 use crate::folders::{self, folder, number, rows, run_analysis};

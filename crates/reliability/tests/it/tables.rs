@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use check::{Code, Row, Subject, WallCodes};
+use fragility::{CONFIDENCE, Interval, Lognormal};
 use reliability::FILES;
 use rocking_wall::wall::Wall;
 use run::sample::fractile;
 use study::folder::Report;
-use study::fragility::{CONFIDENCE, Interval, Lognormal};
 use study::ida::{Case, Crossing, Curve};
 use study::loaded::LoadedStudy;
 use study::results::Fitting;

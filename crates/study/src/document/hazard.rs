@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use files::{FileError, Place, read_text, tables};
+use fragility::hazard::{Hazard, HazardCurve, YEARS};
 use toml::Spanned;
 
-use crate::hazard::{Hazard, HazardCurve, YEARS, read, unusual};
+use super::hazard_file::{read, unusual};
 use crate::ida::IntensityMeasure;
-use files::{FileError, Place, read_text, tables};
 
 use super::levels::to_si;
 

@@ -18,6 +18,7 @@
 
 mod compare;
 mod hazard;
+mod hazard_file;
 mod levels;
 mod model;
 mod report;

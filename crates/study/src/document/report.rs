@@ -1,10 +1,10 @@
 //! What the report of a study shows: limit states, models beside a reference, classes of walls.
 
+use fragility::hazard::Hazard;
+use fragility::{Dispersion, Weights};
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 
-use crate::fragility::{Dispersion, Weights};
-use crate::hazard::Hazard;
 use crate::ida::{Crossing, Levels, Scaled};
 use crate::measures::Compared;
 use crate::uncertain::Samples;

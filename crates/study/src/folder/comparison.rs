@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::fragility::Interval;
-use crate::ida::Layout;
-use crate::results::WallResults;
+use fragility::Interval;
 use report::escaped;
 use report::palette::sign;
+
+use crate::ida::Layout;
+use crate::results::WallResults;
 
 use super::contents::Manifest;
 use super::legend::looks;

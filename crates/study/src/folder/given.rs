@@ -1,10 +1,10 @@
 //! The table `given.csv`: fragilities of the last shock, by the state of the walls before it.
 
+use fragility::{Sample, Weights, fit};
 use report::table::{Digits, Table};
 
 use super::contents::Manifest;
 use super::tables::{Kind, OF_INTENSITY};
-use crate::fragility::{Sample, Weights, fit};
 use crate::ida::{Curve, Run};
 use crate::results::WallResults;
 

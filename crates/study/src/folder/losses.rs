@@ -4,11 +4,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::fragility::{CONFIDENCE, Interval, Lognormal, TAIL};
-use crate::hazard::Hazard;
-use crate::ida::IntensityUnit;
+use fragility::hazard::Hazard;
+use fragility::{CONFIDENCE, Interval, Lognormal, TAIL};
 use report::escaped;
 use report::table::{Digits, Table};
+
+use crate::ida::IntensityUnit;
 
 use super::contents::Manifest;
 use super::error::FolderError;
@@ -212,7 +213,7 @@ fn of_year(name: &str, rows: &[(&str, Annual)]) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hazard::HazardCurve;
+    use fragility::hazard::HazardCurve;
 
     /// Two limit states that cost 0.2 and all: at the median of both, half of the walls are gone.
     #[test]

@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::fragility::{FragilityFunction, TAIL};
-use crate::ida::IntensityUnit;
+use fragility::{FragilityFunction, TAIL};
 use report::escaped;
 use run::file::{Draft, FileError};
+
+use crate::ida::IntensityUnit;
 
 use super::contents::Manifest;
 
@@ -169,7 +170,7 @@ mod tests {
     #[test]
     fn a_function_of_infinite_numbers_is_left_out() {
         for (beta, is_written) in [(0.5, true), (50.0, false)] {
-            let curve = crate::fragility::Lognormal { median: 3.0, dispersion: beta };
+            let curve = fragility::Lognormal { median: 3.0, dispersion: beta };
             let function = FragilityFunction::new(&[curve], 0.0);
             let text = fragility(&function, [1.0].into_iter(), "PGA", IntensityUnit::Gravity);
             assert_eq!(text.is_some_and(|text| text.contains("<params ls=\"u_ins_1\"")), is_written);
@@ -196,7 +197,7 @@ mod tests {
         let report = crate::document::ReportOptions {
             fractions: vec![0.4, 0.1, 1.0, 0.4],
             reference: String::new(),
-            beta: crate::fragility::Dispersion::Own,
+            beta: fragility::Dispersion::Own,
             collapse: crate::ida::Crossing::First,
             resamples: 1,
             seed: 1,
@@ -208,7 +209,7 @@ mod tests {
             samples: None,
             compared: None,
             given: Vec::new(),
-            weights: crate::fragility::Weights::default(),
+            weights: fragility::Weights::default(),
         };
         assert_eq!(report.rising(), [1, 0, 2]);
         let names = report.rising().into_iter().map(|place| state_name(report.fractions[place]));

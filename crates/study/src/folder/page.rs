@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::fragility::{Dispersion, Interval, Lognormal, Summary};
-use crate::ida::{Collapse, Crossing, Exceedance, Layout, Polarity, SENSITIVE_ABOVE};
-use crate::results::WallResults;
+use fragility::{Dispersion, Interval, Lognormal, Summary};
 use report::table::{Cell, Column, Digits, Table};
 use report::{SCROLLS, counted, escaped, number, template};
+
+use crate::ida::{Collapse, Crossing, Exceedance, Layout, Polarity, SENSITIVE_ABOVE};
+use crate::results::WallResults;
 
 use super::contents::{Contents, Manifest};
 use super::legend::{key, spelled_out};

@@ -4,7 +4,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::fragility::FragilityFunction;
+use fragility::FragilityFunction;
 use report::table::Table;
 use run::file::Draft;
 use serde_json::{Map, json};

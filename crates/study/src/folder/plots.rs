@@ -1,11 +1,12 @@
 //! The plots of a wall: fragilities and IDA curves or stripes.
 
-use crate::fragility::{Regression, Sample, Weights};
-use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, Layout, Run};
-use crate::results::{StateResults, WallResults};
+use fragility::{Regression, Sample, Weights};
 use report::palette::Mark;
 use report::plot::{Axis, Look, Plot, Series};
 use run::sample::{fractile, sorted};
+
+use crate::ida::{Crossing, Curve, Exceedance, IntensityUnit, Layout, Run};
+use crate::results::{StateResults, WallResults};
 
 use super::contents::Manifest;
 use super::legend::looks;
@@ -174,8 +175,8 @@ fn fractile_paths(curves: &[Curve], weights: &Weights, unit: IntensityUnit) -> [
 
 #[cfg(test)]
 mod tests {
-    use crate::fragility::Weights;
     use crate::ida::{Curve, IntensityUnit, Run};
+    use fragility::Weights;
 
     use super::fractile_paths;
 

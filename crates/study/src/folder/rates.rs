@@ -4,11 +4,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::fragility::{CONFIDENCE, Interval};
-use crate::hazard::{AgainstTarget, Hazard, Rate, probability};
-use crate::ida::IntensityUnit;
+use fragility::hazard::{AgainstTarget, Hazard, Rate, probability};
+use fragility::{CONFIDENCE, Interval};
 use report::escaped;
 use report::table::{Column, Digits, Table};
+
+use crate::ida::IntensityUnit;
 
 use super::contents::Manifest;
 use super::error::FolderError;

@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::fragility::{Dispersion, Interval};
-use crate::ida::{Curve, Exceedance, Layout, MOST_LISTED, SENSITIVE_ABOVE};
-use crate::results::WallResults;
+use fragility::{Dispersion, Interval};
 use report::counted;
 use report::table::{Cell, Table};
 use run::file;
+
+use crate::ida::{Curve, Exceedance, Layout, MOST_LISTED, SENSITIVE_ABOVE};
+use crate::results::WallResults;
 
 use super::comparison::Comparison;
 use super::contents::Manifest;

@@ -4,8 +4,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Lognormal};
+
 use crate::document::WallClass;
-use crate::fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Lognormal};
 use crate::ida::Layout;
 use crate::results::WallResults;
 

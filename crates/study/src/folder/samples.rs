@@ -62,7 +62,7 @@ impl<'a> Sampled<'a> {
     /// Adds the next wall.
     pub(crate) fn add(&mut self, results: &WallResults) {
         let states = 0..self.manifest.report.fractions.len();
-        let logarithm = |summary: &crate::fragility::Summary| {
+        let logarithm = |summary: &fragility::Summary| {
             summary.fitted.ok().map(|curve| [libm::log(curve.median), curve.dispersion.powi(2)])
         };
         let of_state = |state| results.summaries(state).map(logarithm).collect();

@@ -1,8 +1,7 @@
 //! Walls and classes of walls, with their fragilities in the order of rising limit states.
 
-use crate::fragility::{
-    CONFIDENCE, ClassResamples, FragilityFunction, Interval, Lognormal, Summary, covariance,
-};
+use fragility::{CONFIDENCE, ClassResamples, FragilityFunction, Interval, Lognormal, Summary, covariance};
+
 use crate::results::WallResults;
 
 use super::contents::Manifest;

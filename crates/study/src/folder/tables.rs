@@ -1,9 +1,9 @@
 //! The tables of a study, wall by wall, for CSV files and the Python package.
 
+use fragility::{FitError, Interval, Lognormal, Summary};
 use report::table::{Cell, Column, Digits, Growing, Table};
 use run::sample::{fractile, sorted};
 
-use crate::fragility::{FitError, Interval, Lognormal, Summary};
 use crate::ida::{Crossing, Curve, Exceedance, TieDemand};
 use crate::results::{StateResults, WallResults};
 

@@ -8,6 +8,7 @@ use run::sample::sorted;
 use run::shaking::{Shaken, Shaking, together};
 
 use super::levels::Trace;
+use super::outcome::{difference, run_of};
 use super::polarity::worse;
 use super::{Case, Curve, IdaError, Levels, MOST_LISTED, Run, Study};
 
@@ -87,7 +88,7 @@ impl Study {
         let outcomes = group.outcomes(factors, self.collapse.end());
         for (&(place, level), outcomes) in wanted.iter().zip(outcomes.chunks(group.signs.len())) {
             let run = |outcome: &Result<Outcome, SolverError>| match outcome {
-                Ok(outcome) => Ok(Run::of(group.motion, level, outcome)),
+                Ok(outcome) => Ok(run_of(group.motion, level, outcome)),
                 Err(source) => Err(self.failed(group.cases[place], level, *source)),
             };
             let run = outcomes.iter().map(run).reduce(|one, other| Ok(worse(one?, other?)));
@@ -117,12 +118,12 @@ impl Study {
             let outcomes = group.outcomes(collapses.iter().map(changed), end);
             let change = |(at, outcomes): (&(usize, usize), &[Result<Outcome, SolverError>])| {
                 let run = run(*at);
-                let of = |outcome: &Outcome| Run::of(group.motion, run.intensity, outcome);
+                let of = |outcome: &Outcome| run_of(group.motion, run.intensity, outcome);
                 let worst = outcomes.iter().flatten().reduce(|one, other| {
                     let first = of(one);
                     if worse(first, of(other)) == first { one } else { other }
                 })?;
-                Some(run.change(group.motion, worst))
+                Some(difference(&run, group.motion, worst))
             };
             collapses.iter().zip(outcomes.chunks(group.signs.len())).map(change).collect::<Vec<_>>()
         };

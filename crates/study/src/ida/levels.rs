@@ -1,6 +1,6 @@
 //! Levels of intensity at which a curve is run.
 
-use super::curve::Run;
+use super::Run;
 use super::error::IdaError;
 use super::unit::IntensityUnit;
 use record::LANES;

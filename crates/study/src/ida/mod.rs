@@ -23,11 +23,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod curve;
 mod error;
 mod group;
 mod levels;
 mod measure;
+mod outcome;
 mod parts;
 mod polarity;
 mod sequence;
@@ -45,10 +45,11 @@ use run::records::NamedRecord;
 use run::shaking::felt;
 use run::walls::NamedWall;
 
-pub use curve::{Collapse, Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
 pub use error::IdaError;
+pub use fragility::{Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
 pub use levels::{Layout, Levels};
 pub use measure::{IntensityMeasure, Misfit, ToSi};
+pub use outcome::Collapse;
 pub use polarity::Polarity;
 pub use sequence::Scaled;
 pub use unit::IntensityUnit;

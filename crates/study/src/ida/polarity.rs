@@ -4,7 +4,7 @@ use files::choices;
 use run::records::NamedRecord;
 use serde::{Deserialize, Serialize};
 
-use super::curve::Run;
+use super::Run;
 
 /// What the name of a reversed record ends with.
 const REVERSED: &str = " (reversed)";

@@ -9,6 +9,7 @@ use rocking_wall::solver::{Peaks, State};
 use run::shaking::{Shaken, Shaking, together};
 use serde::{Deserialize, Serialize};
 
+use super::outcome::run_of;
 use super::{Case, IdaError, Run, Study, intensity};
 
 /// What the levels of a study scale, of records that are sequences.
@@ -79,6 +80,6 @@ impl Study {
             return Err(IdaError::LastShock { what });
         }
         shaking.go_on_from(State { peaks: Peaks::at(outcome.state.displacement), ..outcome.state });
-        Ok(Some(Run::of(solver.motion(), 0.0, &outcome)))
+        Ok(Some(run_of(solver.motion(), 0.0, &outcome)))
     }
 }

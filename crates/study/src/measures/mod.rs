@@ -23,9 +23,9 @@ mod beta;
 mod events;
 mod moments;
 
+use fragility::Weights;
 use serde::{Deserialize, Serialize};
 
-use crate::fragility::Weights;
 use crate::ida::{Crossing, Curve, Exceedance, IntensityMeasure, IntensityUnit, Study};
 
 pub use events::Events;

@@ -1,6 +1,6 @@
 //! Distributions of parameters, and their truncation.
 
-use crate::fragility::{cumulative, quantile};
+use fragility::{cumulative, quantile};
 
 /// A distribution before it is truncated. Numbers have the unit of the parameter.
 #[derive(Clone, Debug, PartialEq)]

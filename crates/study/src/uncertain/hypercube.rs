@@ -2,8 +2,8 @@
 
 use run::sample::Pcg;
 
-use crate::fragility::linear::{cholesky, forward};
-use crate::fragility::quantile;
+use fragility::linear::{cholesky, forward};
+use fragility::quantile;
 
 /// Squares of pivots below this are 0: a column is nearly made of others.
 pub(super) const SINGULAR: f64 = 1e-9;

@@ -1,7 +1,8 @@
 //! Which parameter explains a number of the samples, such as ln θ: correlations of ranks, and a regression.
 
+use fragility::linear::{cholesky, solve};
+
 use super::hypercube::SINGULAR;
-use crate::fragility::linear::{cholesky, solve};
 
 /// What a parameter explains of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]

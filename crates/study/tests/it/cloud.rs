@@ -1,5 +1,6 @@
 //! Clouds: their runs, their regression, and what is refused.
 
+use fragility::{Bootstrap, Cloud, FitError, compare_clouds, cumulative, quantile};
 use ground_motion::SyntheticMotion;
 use rocking_wall::wall::Parameters;
 use run::model::{EnergyLoss, Model};
@@ -8,7 +9,6 @@ use run::sample::Pcg;
 use run::walls::NamedWall;
 use study::codes::NoCodes;
 use study::document::StudyFile;
-use study::fragility::{Bootstrap, Cloud, FitError, compare_clouds, cumulative, quantile};
 use study::ida::{Curve, IntensityMeasure, Levels, Run, Study};
 
 /// A run of a record at an intensity, with its demand; the wall overturns at 1.

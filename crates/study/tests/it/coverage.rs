@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use fragility::hazard::HazardCurve;
+use fragility::quantile;
 use run::sample::Pcg;
 use study::codes::NoCodes;
 use study::folder::{Folder, finish};
-use study::fragility::quantile;
-use study::hazard::HazardCurve;
 use study::ida::{Curve, Run};
 
 use crate::folders::{load, number, rows};

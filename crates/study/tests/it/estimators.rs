@@ -1,10 +1,10 @@
 //! Fits of fragilities against maxima that are searched for without derivatives.
 
-use study::codes::NoCodes;
-use study::document::StudyFile;
-use study::fragility::{
+use fragility::{
     Bootstrap, Dispersion, Estimator, Lognormal, Sample, Summary, TAIL, compare, cumulative, fit,
 };
+use study::codes::NoCodes;
+use study::document::StudyFile;
 use study::ida::{Crossing, Curve, Exceedance, Run};
 use study::results::Fitting;
 

@@ -2,12 +2,12 @@
 
 use proptest::prelude::*;
 
-use report::table::Digits;
-use run::sample::{Pcg, sample_median};
-use study::fragility::{
+use fragility::{
     Bootstrap, Dispersion, Estimator, FitError, Interval, Lognormal, Sample, Summary, compare, cumulative,
     fit, fit_jointly, median,
 };
+use report::table::Digits;
+use run::sample::{Pcg, sample_median};
 use study::ida::{Crossing, Curve, Exceedance, Run};
 
 use crate::configuration::mostly;

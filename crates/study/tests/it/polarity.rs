@@ -1,6 +1,6 @@
 //! Records with both signs: which runs they are, and how they are kept and drawn.
 
-use crate::estimators::medians;
+use fragility::Bootstrap;
 use ground_motion::SyntheticMotion;
 use rocking_wall::variables::{Impact, Rocking};
 use rocking_wall::wall::Parameters;
@@ -10,9 +10,10 @@ use run::walls::NamedWall;
 use study::codes::NoCodes;
 use study::document::StudyFile;
 use study::folder::Contents;
-use study::fragility::Bootstrap;
 use study::ida::{Curve, Exceedance, IntensityMeasure, Levels, Polarity, Run, Study};
 use study::loaded::LoadedStudy;
+
+use crate::estimators::medians;
 
 fn records(count: u64) -> Vec<NamedRecord> {
     let record = |seed| {

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::Once;
 
+use fragility::{Sample, fit};
 use ground_motion::{GroundMotion, SyntheticMotion};
 use rocking_wall::response::Response;
 use rocking_wall::scene::Scene;
@@ -13,7 +14,6 @@ use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
 use study::codes::NoCodes;
-use study::fragility::{Sample, fit};
 use study::ida::{Case, Crossing, IntensityMeasure, Levels, Run, Scaled, Study};
 use study::loaded::LoadedStudy;
 

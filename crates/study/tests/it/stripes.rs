@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fragility::{Sample, fit};
 use ground_motion::SyntheticMotion;
 use study::codes::NoCodes;
-use study::fragility::{Sample, fit};
 use study::ida::{Curve, Run};
 use study::loaded::LoadedStudy;
 

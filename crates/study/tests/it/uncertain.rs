@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use fragility::cumulative;
 use ground_motion::{Pulse, Shape};
 use rocking_wall::wall::Parameters;
 use run::records::NamedRecord;
@@ -9,7 +10,6 @@ use run::walls::NamedWall;
 use study::codes::NoCodes;
 use study::document::StudyFile;
 use study::folder::Contents;
-use study::fragility::cumulative;
 use study::loaded::LoadedStudy;
 use study::uncertain::{Uncertain, hypercube, pearson_of_spearman, rank_correlation, sensitivities};
 

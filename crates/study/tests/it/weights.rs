@@ -1,7 +1,7 @@
 //! Weighted records, against maximum likelihood by SciPy 1.17.1: `scipy.optimize.minimize` (Nelder-Mead,
 //! xatol 1e-13) of −Σ w ln L, with `scipy.stats.norm`.
 
-use study::fragility::{Bootstrap, Cloud, Dispersion, Estimator, Lognormal, Sample, Weights, compare, fit};
+use fragility::{Bootstrap, Cloud, Dispersion, Estimator, Lognormal, Sample, Weights, compare, fit};
 use study::ida::Exceedance::{self, Above, At, Between};
 use study::ida::{Crossing, Curve, Run};
 

@@ -1,27 +1,27 @@
 //! Terms of the likelihood of a lognormal curve.
 
-use super::normal::{HALF_LOG_2_PI, log_and_hazard};
+use crate::normal::{HALF_LOG_2_PI, log_and_hazard};
 
 /// Runs whose exceedances lie between two intensities.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Term {
+pub(crate) struct Term {
     /// Logarithms y of the two intensities: equal of an exact one, −∞ and ∞ where one is not known.
-    pub(super) between: [f64; 2],
+    pub(crate) between: [f64; 2],
     /// Number of runs.
-    pub(super) runs: f64,
+    pub(crate) runs: f64,
     /// Logarithm of the distance of both y, less ln √(2π); 0 of an exact intensity.
     constant: f64,
 }
 
 /// ln L and its derivatives along a and c.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Likelihood {
+pub(crate) struct Likelihood {
     /// ln L without its constant.
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// ∂ ln L/∂a and ∂ ln L/∂c.
-    pub(super) gradient: [f64; 2],
+    pub(crate) gradient: [f64; 2],
     /// −∂² ln L/∂a², −∂² ln L/∂a∂c and −∂² ln L/∂c².
-    pub(super) curvature: [f64; 3],
+    pub(crate) curvature: [f64; 3],
 }
 
 /// Widest interval of z, times 1 + |z|, that is taken by its series.
@@ -29,7 +29,7 @@ const NARROW: f64 = 0.2;
 
 impl Term {
     /// Creates a term from the logarithms of both intensities.
-    pub(super) fn new([from, to]: [f64; 2], runs: f64) -> Self {
+    pub(crate) fn new([from, to]: [f64; 2], runs: f64) -> Self {
         let width = to - from;
         let is_bracket = width > 0.0 && width.is_finite();
         let constant = if is_bracket { libm::log(width) - HALF_LOG_2_PI } else { 0.0 };
@@ -37,18 +37,18 @@ impl Term {
     }
 
     /// Returns this term for another number of runs.
-    pub(super) fn of_runs(self, runs: f64) -> Self {
+    pub(crate) fn of_runs(self, runs: f64) -> Self {
         Self { runs, ..self }
     }
 
     /// Returns whether the intensity is exact.
-    pub(super) fn is_exact(&self) -> bool {
+    pub(crate) fn is_exact(&self) -> bool {
         let [from, to] = self.between;
         from == to
     }
 
     /// Returns the middle of what is known.
-    pub(super) fn middle(&self) -> f64 {
+    pub(crate) fn middle(&self) -> f64 {
         match self.between {
             [from, to] if from == f64::NEG_INFINITY => to,
             [from, to] if to == f64::INFINITY => from,
@@ -57,12 +57,12 @@ impl Term {
     }
 
     /// Returns the distance of both logarithms; 0 where one is not known.
-    pub(super) fn width(&self) -> f64 {
+    pub(crate) fn width(&self) -> f64 {
         if self.is_bounded() { self.between[1] - self.between[0] } else { 0.0 }
     }
 
     /// Returns whether both intensities are known.
-    pub(super) fn is_bounded(&self) -> bool {
+    pub(crate) fn is_bounded(&self) -> bool {
         self.between.iter().all(|y| y.is_finite())
     }
 
@@ -165,7 +165,7 @@ fn wide(ys: [f64; 2], [a, c]: [f64; 2]) -> Likelihood {
 
 impl Likelihood {
     /// Returns the likelihood of terms at z = a (y − centre) + c.
-    pub(super) fn of(terms: &[Term], centre: f64, at: [f64; 2]) -> Self {
+    pub(crate) fn of(terms: &[Term], centre: f64, at: [f64; 2]) -> Self {
         let mut all = Self::default();
         // runs of which the likelihood is a density, with a factor a
         let (mut dense, a, beta) = (0.0, at[0], 1.0 / at[0]);

@@ -3,10 +3,10 @@
 use files::choices;
 use serde::{Deserialize, Serialize};
 
-use super::fit::{FitError, Lognormal, fit_from};
-use super::linear::{cholesky, solve};
-use super::normal::cumulative;
-use super::term::{Likelihood, Term};
+use crate::fit::{FitError, Lognormal, fit_from};
+use crate::linear::{cholesky, solve};
+use crate::normal::cumulative;
+use crate::term::{Likelihood, Term};
 
 /// How the dispersions of the limit states of a wall are fitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -71,7 +71,7 @@ impl Estimator {
     }
 
     /// Fits the curves of the limit states, from those of similar runs.
-    pub(super) fn fit(
+    pub(crate) fn fit(
         &self,
         states: &[Vec<Term>],
         near: &[Result<Lognormal, FitError>],
@@ -95,7 +95,7 @@ impl Estimator {
     }
 
     /// Returns for each limit state where its curve crosses that of the next one.
-    pub(super) fn crossings(&self, curves: &[Result<Lognormal, FitError>]) -> Vec<Option<CurveCrossing>> {
+    pub(crate) fn crossings(&self, curves: &[Result<Lognormal, FitError>]) -> Vec<Option<CurveCrossing>> {
         let mut crossings = vec![None; curves.len()];
         let known: Vec<_> = self.rising.iter().filter_map(|&k| Some((k, curves[k].ok()?))).collect();
         for pair in known.windows(2) {

@@ -9,23 +9,21 @@
 //! On each segment λ is a power of x, and the integral has a closed form: see [`HazardCurve::rate`].
 //!
 //! ```
-//! use study::hazard::HazardCurve;
+//! use fragility::hazard::HazardCurve;
 //!
 //! let points = vec![[0.05, 1.0 / 30.0], [0.1, 1.0 / 101.0], [0.2, 1.0 / 475.0], [0.4, 1.0 / 2475.0]];
 //! let rate = HazardCurve::new(points)?.rate(0.4, 0.45);
 //! assert!((rate.within() - 4.029_883_102_90e-4).abs() < 1e-14);
 //! // what lies beyond the last point is known by its bounds alone
 //! assert_eq!(rate.beyond[1], 1.0 / 2475.0);
-//! # Ok::<(), study::hazard::HazardError>(())
+//! # Ok::<(), fragility::hazard::HazardError>(())
 //! ```
 
 mod curve;
 mod rate;
-mod read;
 
-pub use curve::{HazardCurve, HazardError};
+pub use curve::{HazardCurve, HazardError, SWAPPED};
 pub use rate::{AgainstTarget, Rate, probability};
-pub use read::{read, unusual};
 
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 /// Puts the lower triangle L of a matrix L Lᵀ in its place; `None` if the square of a pivot is not above
 /// `least`.
-pub(crate) fn cholesky(matrix: &mut [impl AsRef<[f64]> + AsMut<[f64]>], least: f64) -> Option<()> {
+pub fn cholesky(matrix: &mut [impl AsRef<[f64]> + AsMut<[f64]>], least: f64) -> Option<()> {
     for row in 0..matrix.len() {
         for column in 0..=row {
             let [own, other] = [row, column].map(|k| matrix[k].as_ref());
@@ -18,7 +18,7 @@ pub(crate) fn cholesky(matrix: &mut [impl AsRef<[f64]> + AsMut<[f64]>], least: f
 }
 
 /// Solves L Lᵀ x = b, with x in the place of b.
-pub(crate) fn solve(lower: &[impl AsRef<[f64]>], x: &mut [f64]) {
+pub fn solve(lower: &[impl AsRef<[f64]>], x: &mut [f64]) {
     forward(lower, x);
     for row in (0..x.len()).rev() {
         let known: f64 = (row + 1..x.len()).map(|k| lower[k].as_ref()[row] * x[k]).sum();
@@ -27,7 +27,7 @@ pub(crate) fn solve(lower: &[impl AsRef<[f64]>], x: &mut [f64]) {
 }
 
 /// Solves L x = b, with x in the place of b.
-pub(crate) fn forward(lower: &[impl AsRef<[f64]>], x: &mut [f64]) {
+pub fn forward(lower: &[impl AsRef<[f64]>], x: &mut [f64]) {
     for (row, line) in lower.iter().map(AsRef::as_ref).enumerate() {
         let known: f64 = (0..row).map(|column| line[column] * x[column]).sum();
         x[row] = (x[row] - known) / line[row];

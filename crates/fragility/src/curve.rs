@@ -1,9 +1,6 @@
 //! Curve of demand over intensity, of one wall, record and model.
 
 use files::choices;
-use record::{Outcome, RunEnd};
-use rocking_wall::solver::{Motion, State};
-use rocking_wall::wall::Wall;
 use serde::{Deserialize, Serialize};
 
 /// A run: one wall through one record scaled to one level.
@@ -29,28 +26,6 @@ pub struct Run {
 /// 1e-10 of the record, far below what a recorder of 16 bits resolves, changes u by as much as `u_ins`.
 pub const SENSITIVE_ABOVE: f64 = 1e10;
 
-impl Run {
-    /// Returns the run at a level whose outcome is known.
-    pub(super) fn of(motion: &Motion, intensity: f64, outcome: &Outcome) -> Self {
-        let (wall, Outcome { state, overturning, .. }) = (motion.wall(), outcome);
-        let demand = state.reported_peak(wall.body().instability, overturning.is_some())[1];
-        let tie = TieDemand::of(wall, state);
-        Self { intensity, demand, overturning: *overturning, tie, sensitivity: None }
-    }
-
-    /// Returns |Δu|/`u_ins` between this run and a run beside it: where both overturn u̇ times the time
-    /// between, else the difference of their demands.
-    pub(super) fn change(&self, motion: &Motion, other: &Outcome) -> f64 {
-        match (self.overturning, other.overturning) {
-            (Some(time), Some(later)) => {
-                let (u, v) = (other.state.displacement, other.state.velocity);
-                (v * (later - time) / motion.wall().body().instability.of(u)).abs()
-            }
-            _ => (self.demand - Self::of(motion, self.intensity, other).demand).abs(),
-        }
-    }
-}
-
 /// Demand of a run on ties that may yield, of the two sides the larger one, up to overturning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TieDemand {
@@ -60,29 +35,6 @@ pub struct TieDemand {
     pub elongation: f64,
     /// A tie has broken.
     pub broken: bool,
-}
-
-impl TieDemand {
-    /// Returns the demand of a run from upright, of its state at the end. All of it follows from the peaks: N
-    /// and p grow with the largest |u|.
-    pub(super) fn of(wall: &Wall, state: &State) -> Option<Self> {
-        let yielding = || wall.ties().iter().filter(|tie| tie.ultimate.is_some());
-        yielding().next()?;
-        let mut demand = Self { force: 0.0, elongation: 0.0, broken: false };
-        for (tie, sign) in yielding().flat_map(|tie| [(tie, 1.0), (tie, -1.0)]) {
-            let limits = [tie.strength_displacement(), tie.fracture_displacement()];
-            let ([Some(yields), Some(breaks)], true) = (limits, tie.holds(sign)) else { continue };
-            // a sequence may have stretched it before the shock whose peaks these are
-            let reach =
-                state.peaks.of(sign).max(state.tie.yielded.of(sign)).min(wall.body().instability.of(sign));
-            let force =
-                if reach < yields { tie.force(sign * reach) } else { tie.strength.unwrap_or_default() };
-            demand.force = demand.force.max(force);
-            demand.elongation = demand.elongation.max(tie.elongation(reach));
-            demand.broken |= reach >= breaks;
-        }
-        Some(demand)
-    }
 }
 
 /// Intensity at which the demand exceeds a limit state.
@@ -109,7 +61,7 @@ pub enum Crossing {
     Fraction,
 }
 
-choices!(Collapse, Crossing);
+choices!(Crossing);
 
 impl Crossing {
     /// Every variant, with the words of study files.
@@ -133,27 +85,6 @@ impl Exceedance {
         match self.bounds() {
             [least, most] if least == most || least == 0.0 => most,
             [least, most] => (least * most).sqrt(),
-        }
-    }
-}
-
-/// Which runs have overturned.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Collapse {
-    /// Those that exceed `u_ins`, where they stop.
-    #[default]
-    Exceeds,
-    /// Those that end beyond `u_ins`; runs go on to the end of the tail.
-    Falls,
-}
-
-impl Collapse {
-    /// Returns where a run ends.
-    pub(crate) fn end(self) -> RunEnd {
-        match self {
-            Self::Exceeds => RunEnd::AtPeaks,
-            Self::Falls => RunEnd::OfRecord,
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use run::sample::sample_median;
 
-use super::term::Term;
-use super::weights::Weights;
-use crate::ida::{Crossing, Curve, Exceedance};
+use crate::curve::{Crossing, Curve, Exceedance};
+use crate::term::Term;
+use crate::weights::Weights;
 
 /// What the records show of one limit state.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,14 +105,14 @@ impl Sample {
     }
 
     /// Returns the terms of the likelihood of all records.
-    pub(super) fn terms(&self) -> Vec<Term> {
+    pub(crate) fn terms(&self) -> Vec<Term> {
         let mut terms = Vec::new();
         self.prepared().terms(&vec![1; self.exceedances.len()], &mut terms);
         terms
     }
 
     /// Prepares terms for many fits, with the logarithms of all intensities.
-    pub(super) fn prepared(&self) -> Prepared<'_> {
+    pub(crate) fn prepared(&self) -> Prepared<'_> {
         let term = |one: &Exceedance| Term::new(one.bounds().map(libm::log), 1.0);
         let stripe = |stripe: &Stripe| (libm::log(stripe.intensity), stripe.clone());
         Prepared {
@@ -125,7 +125,7 @@ impl Sample {
     /// Bounds of the θ that the sample leaves open, by how often each record was drawn: no more than half of
     /// the records exceed below the lower one, at least half up to the upper one. Where the fractions fall
     /// with the intensity, nothing is known.
-    pub(super) fn open_bounds(&self, drawn: &[u32]) -> [f64; 2] {
+    pub(crate) fn open_bounds(&self, drawn: &[u32]) -> [f64; 2] {
         let [mut least, mut most] = [0.0, f64::INFINITY];
         for stripe in &self.stripes {
             let [runs, exceeded] = stripe.count(self.weights.times(drawn));
@@ -216,7 +216,7 @@ impl Stripe {
 }
 
 /// A sample with the logarithms of its intensities.
-pub(super) struct Prepared<'a> {
+pub(crate) struct Prepared<'a> {
     records: Vec<Term>,
     stripes: Vec<(f64, Stripe)>,
     weights: &'a Weights,
@@ -224,7 +224,7 @@ pub(super) struct Prepared<'a> {
 
 impl Prepared<'_> {
     /// Puts the terms of the likelihood in place of others, by how often each record was drawn.
-    pub(super) fn terms(&self, drawn: &[u32], terms: &mut Vec<Term>) {
+    pub(crate) fn terms(&self, drawn: &[u32], terms: &mut Vec<Term>) {
         terms.clear();
         for (y, stripe) in &self.stripes {
             let [runs, exceeded] = stripe.count(self.weights.times(drawn));

@@ -1,6 +1,6 @@
 //! Fragilities of walls and of classes of walls, with the parts of their variance.
 
-use super::fit::Lognormal;
+use crate::fit::Lognormal;
 
 /// Curves of a wall or a class, one for each limit state.
 #[derive(Clone, Debug, PartialEq)]

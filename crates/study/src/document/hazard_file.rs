@@ -1,11 +1,10 @@
 //! Hazard curves from files: two columns, or a table of `OpenQuake`.
 
 use files::{FileError, Place};
+use fragility::hazard::{HazardCurve, SWAPPED};
 use ground_motion::columns::{Columns, Fault, Name, Numbers, TextRow};
 
 use crate::ida::IntensityMeasure;
-
-use super::curve::{HazardCurve, SWAPPED};
 
 /// A curve, intensities in SI units, and what was left out or could not be checked.
 type Read = (HazardCurve, Vec<String>);
@@ -19,7 +18,7 @@ const FORMS: &str = "a line of names with a measure or `intensity` and `annual_r
 /// # Errors
 /// [`FileError`] with line, value and remedy: the file is of another measure, a cell is no number, there is
 /// no such site, or the points are no hazard curve.
-pub fn read(
+pub(super) fn read(
     file: &Place<'_>,
     measure: &IntensityMeasure,
     unit: Option<&str>,
@@ -62,7 +61,7 @@ const SHORT_PERIOD: f64 = 10.0;
 const LARGEST: f64 = 1.0 / 16.0;
 
 /// Warns of a curve in another unit than the study states, or of other numbers than rates.
-pub fn unusual(curve: &HazardCurve, measure: &IntensityMeasure) -> Option<String> {
+pub(super) fn unusual(curve: &HazardCurve, measure: &IntensityMeasure) -> Option<String> {
     let (usual, unit) = (measure.usual(), measure.unit());
     let at = |period: f64| unit.of(curve.intensity(1.0 / period));
     if let Some(warning) = usual.warning(at(PERIOD)) {

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use super::curve::HazardCurve;
-use crate::fragility::cumulative;
+use crate::normal::cumulative;
 
 /// From here on Mills' ratio comes from its continued fraction: with [`LEVELS`] it is right to a rounding.
 const FAR: f64 = 15.0;
@@ -45,13 +45,13 @@ impl HazardCurve {
     /// The result is not a number unless θ and β are positive and finite.
     ///
     /// ```
-    /// use study::hazard::HazardCurve;
+    /// use fragility::hazard::HazardCurve;
     ///
     /// // one power law, from far below θ to far above: k₀ θ^−k exp(k²β²/2)
     /// let power = |x: f64| [x, 1e-4 * x.powf(-2.5)];
     /// let rate = HazardCurve::new(vec![power(1e-4), power(1e4)])?.rate(0.4, 0.45).within();
     /// assert!((rate / 1.860_702_745_8e-3 - 1.0).abs() < 1e-10);
-    /// # Ok::<(), study::hazard::HazardError>(())
+    /// # Ok::<(), fragility::hazard::HazardError>(())
     /// ```
     pub fn rate(&self, theta: f64, beta: f64) -> Rate {
         let theta = if theta > 0.0 && theta.is_finite() && beta.is_finite() { theta } else { f64::NAN };

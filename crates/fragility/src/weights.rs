@@ -14,7 +14,7 @@ impl Weights {
     /// Takes positive weights of any sum.
     ///
     /// ```
-    /// use study::fragility::Weights;
+    /// use fragility::Weights;
     ///
     /// assert_eq!(Weights::of(&[2.0, 6.0]).of_record(1), 1.5);
     /// assert_eq!(Weights::of(&[0.1; 7]), Weights::default());
@@ -45,7 +45,7 @@ impl Weights {
     }
 
     /// Multiplies how often each record was drawn by its weight.
-    pub(super) fn times<'a>(&'a self, drawn: &'a [u32]) -> impl Iterator<Item = f64> + Clone + 'a {
+    pub(crate) fn times<'a>(&'a self, drawn: &'a [u32]) -> impl Iterator<Item = f64> + Clone + 'a {
         drawn.iter().enumerate().map(|(place, &count)| f64::from(count) * self.of_record(place))
     }
 }

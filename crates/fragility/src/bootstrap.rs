@@ -2,16 +2,16 @@
 
 use std::f64::consts::LN_10;
 
-use super::dispersion::Estimator;
-use super::fit::{FitError, Lognormal};
-use super::normal::cumulative;
-use super::sample::Sample;
-use super::weights::Weights;
+use crate::dispersion::Estimator;
+use crate::fit::Lognormal;
+use crate::normal::cumulative;
+use crate::sample::Sample;
+use crate::weights::Weights;
 use report::table::{Digits, between};
 use run::parallel::stop_if_asked;
 use run::sample::{Pcg, unsorted_fractile};
 
-use crate::ida::Exceedance;
+use crate::curve::Exceedance;
 
 /// Fewest records whose resamples are studentised. Of 4, 5 and 6 records 34, 10 and 2.0 % of the resamples
 /// draw two or fewer different ones. Up to 5 they are the 2.5 % at an end of an interval, which then says how
@@ -95,10 +95,10 @@ impl Bootstrap {
     }
 
     /// Returns a curve, with 4n/(4n − 3) times its β where that is [asked for](Self::corrected).
-    pub(crate) fn correct(&self, fitted: Result<Lognormal, FitError>) -> Result<Lognormal, FitError> {
+    pub fn correct(&self, fitted: Lognormal) -> Lognormal {
         let n = self.effective;
         let factor = if self.corrects { 4.0 * n / (4.0 * n - 3.0) } else { 1.0 };
-        fitted.map(|curve| Lognormal { dispersion: factor * curve.dispersion, ..curve })
+        Lognormal { dispersion: factor * fitted.dispersion, ..fitted }
     }
 
     /// Returns the least probability of which n records tell the order of magnitude, at least 1e-4.
@@ -109,7 +109,7 @@ impl Bootstrap {
     /// ```text
     /// z² (1 + z²/2) = n ln² 10
     /// ```
-    pub(crate) fn least_probability(&self) -> f64 {
+    pub fn least_probability(&self) -> f64 {
         let n = self.effective;
         let square = (1.0 + 2.0 * n * LN_10 * LN_10).sqrt() - 1.0;
         let least = cumulative(-square.sqrt()).max(1e-4);
@@ -120,7 +120,7 @@ impl Bootstrap {
 
     /// Returns which part of the likelihood of all records counts where they are taken as independent: of
     /// records that are drawn together and of unequal weights less than 1.
-    pub(super) fn independent_part(&self) -> f64 {
+    pub(crate) fn independent_part(&self) -> f64 {
         self.effective / self.records as f64
     }
 
@@ -130,7 +130,7 @@ impl Bootstrap {
     }
 
     /// Computes something of each resample, from how often each record was drawn.
-    pub(super) fn counted<T>(&self, mut result: impl FnMut(&[u32]) -> T) -> Vec<T> {
+    pub(crate) fn counted<T>(&self, mut result: impl FnMut(&[u32]) -> T) -> Vec<T> {
         let mut random = Pcg::new(self.seed);
         let mut counts = vec![0; self.records];
         let resample = |_| {
@@ -211,7 +211,7 @@ impl Bootstrap {
     /// by the mean of their kurtosis, 3 (n − 1)/(n + 1); that of ln β is 1/(2 (n − 1)). k makes up for it. A
     /// resample without a curve keeps its bounds of θ. Efron and Tibshirani, chapters 12 and 13. Resamples of
     /// fewer than [`FEWEST_RECORDS`] are not numbers.
-    pub(super) fn curves(
+    pub(crate) fn curves(
         &self,
         [least, most, beta]: [f64; 3],
         samples: &(impl Iterator<Item = [f64; 3]> + Clone),
@@ -241,7 +241,7 @@ impl Bootstrap {
 
 impl Resampled {
     /// Divides by another estimate, resample by resample.
-    pub(super) fn over(&self, other: &Self) -> Self {
+    pub(crate) fn over(&self, other: &Self) -> Self {
         let quotient = |[least, most]: [f64; 2], over: [f64; 2]| [least / over[1], most / over[0]];
         let samples = self.samples.iter().zip(&other.samples);
         Self {
@@ -252,7 +252,7 @@ impl Resampled {
     }
 
     /// Encloses the central `part` of the resamples.
-    pub(super) fn interval(&self, part: f64) -> Interval {
+    pub(crate) fn interval(&self, part: f64) -> Interval {
         let [least, most] = [0, 1]
             .map(|end| Interval::new(self.estimate[end], self.samples.iter().map(|ends| ends[end]), part));
         Interval { least: [least.estimate, least.range[0], least.range[1]], ..most }

@@ -15,11 +15,11 @@
 //! the uniqueness of the maximum likelihood estimator for the Tobit model. Econometrica 46(5), 1978,
 //! 1211–1215).
 
-use super::fit::{FitError, Lognormal};
-use super::linear::{cholesky, solve};
-use super::normal::log_and_hazard;
-use super::weights::Weights;
-use crate::ida::Curve;
+use crate::curve::Curve;
+use crate::fit::{FitError, Lognormal};
+use crate::linear::{cholesky, solve};
+use crate::normal::log_and_hazard;
+use crate::weights::Weights;
 
 /// The runs of a wall and model, one for each record.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,7 +98,7 @@ impl Cloud {
     }
 
     /// Fits the regression, with each record as often as it was drawn.
-    pub(super) fn fit_drawn(&self, drawn: &[u32]) -> Result<Regression, FitError> {
+    pub(crate) fn fit_drawn(&self, drawn: &[u32]) -> Result<Regression, FitError> {
         let drawn = self.points.iter().copied().zip(self.weights.times(drawn));
         let used = |(point, count): &(Point, f64)| *count > 0.0 && point.y.is_none_or(f64::is_finite);
         let points: Vec<_> = drawn.filter(used).collect();

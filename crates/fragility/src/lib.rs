@@ -1,5 +1,6 @@
-//! Fragilities: the probability that a demand exceeds a limit state, over the intensity.
+#![doc = include_str!("../README.md")]
 //!
+//! # Fragilities
 //! A fragility is empirical, in steps, or a lognormal curve fitted by maximum likelihood:
 //!
 //! ```text
@@ -12,22 +13,24 @@
 //! curves do not cross: see [`Dispersion`]. Those of a [`Cloud`] follow from a regression.
 //!
 //! ```
-//! use study::fragility::{Sample, fit};
-//! use study::ida::Exceedance::{Above, At};
+//! use fragility::Exceedance::{Above, At};
+//! use fragility::{Sample, fit};
 //!
 //! // two records exceed the limit state at 2 and at 4 m/s², a third one does not up to 5 m/s²
 //! let curve = fit(&Sample::of_records(vec![At(2.0), At(4.0), Above(5.0)]))?;
 //! assert!(curve.median > 3.0 && curve.probability(curve.median) == 0.5);
-//! # Ok::<(), study::fragility::FitError>(())
+//! # Ok::<(), fragility::FitError>(())
 //! ```
 
 mod bootstrap;
 mod class;
 mod cloud;
 mod compare;
+mod curve;
 mod dispersion;
 mod fit;
-pub(crate) mod linear;
+pub mod hazard;
+pub mod linear;
 mod normal;
 mod sample;
 mod term;
@@ -37,6 +40,7 @@ pub use bootstrap::{Bootstrap, FEWEST_RECORDS, Interval, Resampled};
 pub use class::{ClassResamples, FragilityFunction, StateCurve};
 pub use cloud::{Cloud, Regression};
 pub use compare::{CONFIDENCE, Summary, compare, compare_clouds, covariance};
+pub use curve::{Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
 pub use dispersion::{CurveCrossing, Dispersion, Estimator, TAIL};
 pub use fit::{FitError, Lognormal, fit, fit_jointly};
 pub use normal::{cumulative, quantile};

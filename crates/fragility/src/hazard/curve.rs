@@ -19,8 +19,7 @@ pub struct HazardError {
 }
 
 /// What may be wrong with points whose columns make a curve the other way round.
-pub(super) const SWAPPED: &str =
-    "; are intensity and annual rate swapped? A point is [intensity, annual rate]";
+pub const SWAPPED: &str = "; are intensity and annual rate swapped? A point is [intensity, annual rate]";
 
 impl HazardCurve {
     /// Makes a curve of points: an intensity, in any unit, and its annual rate of exceedance \[1/year\].
@@ -81,12 +80,12 @@ impl HazardCurve {
     /// Returns the intensity at an annual rate, between the points; beyond them that of the first or last.
     ///
     /// ```
-    /// use study::hazard::HazardCurve;
+    /// use fragility::hazard::HazardCurve;
     ///
     /// let curve = HazardCurve::new(vec![[0.1, 1e-2], [0.4, 1e-4]])?;
     /// assert!((curve.intensity(1e-3) - 0.2).abs() < 1e-15);
     /// assert_eq!([1.0, 1e-9].map(|rate| curve.intensity(rate)), [0.1, 0.4]);
-    /// # Ok::<(), study::hazard::HazardError>(())
+    /// # Ok::<(), fragility::hazard::HazardError>(())
     /// ```
     pub fn intensity(&self, rate: f64) -> f64 {
         let last = self.points.len() - 1;

@@ -1,12 +1,12 @@
 //! Fragilities of several models beside that of a reference.
 
-use super::bootstrap::{Bootstrap, Interval, Resampled};
-use super::cloud::{Cloud, Regression};
-use super::dispersion::{CurveCrossing, Dispersion, Estimator};
-use super::fit::{FitError, Lognormal, fit_from, log_likelihood};
-use super::sample::Sample;
-use super::term::Term;
-use crate::ida::Exceedance;
+use crate::bootstrap::{Bootstrap, Interval, Resampled};
+use crate::cloud::{Cloud, Regression};
+use crate::curve::Exceedance;
+use crate::dispersion::{CurveCrossing, Dispersion, Estimator};
+use crate::fit::{FitError, Lognormal, fit_from, log_likelihood};
+use crate::sample::Sample;
+use crate::term::Term;
 
 /// Fraction of the resamples within an interval.
 pub const CONFIDENCE: f64 = 0.95;
@@ -144,8 +144,9 @@ impl Fragility {
         own.dispersion = Dispersion::Own;
         let (fitted, alone) = (estimator.fit(&terms, &[]), own.fit(&terms, &[]));
         let contradicted = contradict_common_dispersion(&terms, &alone, bootstrap.independent_part());
-        let correct =
-            |fitted: Vec<_>| -> Vec<_> { fitted.into_iter().map(|curve| bootstrap.correct(curve)).collect() };
+        let correct = |fits: Vec<Result<Lognormal, FitError>>| -> Vec<_> {
+            fits.into_iter().map(|fit| fit.map(|curve| bootstrap.correct(curve))).collect()
+        };
         let (fitted, alone) = (correct(fitted), correct(alone));
         let crossings = estimator.crossings(&fitted);
         let medians = bootstrap.medians(states);
@@ -179,7 +180,7 @@ impl Fragility {
             };
             let curves = bootstrap.curves(ends(own.ok()), &resampled.iter().map(|fit| ends(*fit)));
             let counts = [cloud.records(), cloud.collapsed()];
-            let fitted = bootstrap.correct(own.map(|fit| fit.fragility(fraction)));
+            let fitted = own.map(|fit| bootstrap.correct(fit.fragility(fraction)));
             Self::new(fitted, counts, curves[0].clone(), curves)
         };
         fractions.iter().map(state).collect()

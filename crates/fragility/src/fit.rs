@@ -2,9 +2,9 @@
 
 use run::bisection::first_true;
 
-use super::normal::cumulative;
-use super::sample::Sample;
-use super::term::{Likelihood, Term};
+use crate::normal::cumulative;
+use crate::sample::Sample;
+use crate::term::{Likelihood, Term};
 
 /// A lognormal fragility.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ impl Lognormal {
     /// Returns the intensity at which the probability of exceedance is that given, between 0 and 1.
     ///
     /// ```
-    /// let curve = study::fragility::Lognormal { median: 2.0, dispersion: 0.5 };
+    /// let curve = fragility::Lognormal { median: 2.0, dispersion: 0.5 };
     /// assert!((curve.probability(curve.intensity(0.1)) - 0.1).abs() < 1e-12);
     /// ```
     pub fn intensity(&self, probability: f64) -> f64 {
@@ -113,7 +113,7 @@ pub fn fit_jointly(states: &[Sample]) -> Vec<Result<Lognormal, FitError>> {
 }
 
 /// Fits as [`fit_jointly`] does, starting from the curves of similar samples, if there are some.
-pub(super) fn fit_from(
+pub(crate) fn fit_from(
     states: &[impl AsRef<[Term]>],
     near: &[Result<Lognormal, FitError>],
 ) -> Vec<Result<Lognormal, FitError>> {
@@ -192,7 +192,7 @@ fn climb(states: &mut [Result<State<'_>, FitError>], [a, step]: [f64; 2], value:
 }
 
 /// Computes ln L of a curve under terms, without its constant.
-pub(super) fn log_likelihood(terms: &[Term], curve: &Lognormal) -> f64 {
+pub(crate) fn log_likelihood(terms: &[Term], curve: &Lognormal) -> f64 {
     Likelihood::of(terms, libm::log(curve.median), [1.0 / curve.dispersion, 0.0]).value
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 /// ln √(2π).
-pub(super) const HALF_LOG_2_PI: f64 = 0.918_938_533_204_672_7;
+pub(crate) const HALF_LOG_2_PI: f64 = 0.918_938_533_204_672_7;
 /// Below this ln Φ comes from its asymptotic series, since Φ itself underflows at −38.
 const ASYMPTOTIC: f64 = -20.0;
 /// Above this 1 − Φ is below half a rounding of 1.
@@ -107,7 +107,7 @@ const FAR_TAIL: [[f64; 8]; 2] = [
 ];
 
 /// Returns ln Φ(z) and its derivative φ(z)/Φ(z).
-pub(super) fn log_and_hazard(z: f64) -> (f64, f64) {
+pub(crate) fn log_and_hazard(z: f64) -> (f64, f64) {
     if z > NEAR_ONE {
         return (0.0, 0.0);
     }
@@ -123,7 +123,7 @@ pub(super) fn log_and_hazard(z: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::{cumulative, quantile};
+    use crate::{cumulative, quantile};
 
     /// Φ returns what Φ⁻¹ was asked for. Where Φ is p, an error of z by a rounding changes p by φ(z) z 1e-16,
     /// at most 40 roundings of p as far as z = −37.
