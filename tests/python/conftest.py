@@ -1,7 +1,9 @@
 """Finds the FMUs and the program for the tests; `cargo xtask test` sets the paths."""
 
+import math
 import os
 import shutil
+import subprocess
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -100,8 +102,17 @@ def unpacked_floor(floor_fmu):
         yield unpacked
 
 
-@pytest.fixture(scope="module")
-def browser():
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Runs all files that use the browser in one process, and each other file in one: what a file builds or
+    unpacks is made once."""
+    shown = {item.path for item in items if "browser" in item.fixturenames}
+    for item in items:
+        item.add_marker(pytest.mark.xdist_group("browser" if item.path in shown else item.path.stem))
+
+
+@pytest.fixture(scope="session")
+def chromium():
     """A headless Chromium."""
     binary = next((path for path in map(shutil.which, BROWSERS) if path), None)
     driver = shutil.which("chromedriver")
@@ -112,6 +123,56 @@ def browser():
     for flag in FLAGS:
         options.add_argument(flag)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    browser = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
-    yield browser
-    browser.quit()
+    chromium = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    yield chromium
+    chromium.quit()
+
+
+@pytest.fixture(scope="module")
+def browser(chromium):
+    """A tab of the browser, without sizes and colours of other tabs."""
+    first = chromium.current_window_handle
+    chromium.switch_to.new_window("tab")
+    yield chromium
+    chromium.close()
+    chromium.switch_to.window(first)
+
+
+@pytest.fixture(scope="session")
+def playground():
+    """Path of the playground."""
+    path = os.environ.get("ROCKING_WALL_PLAYGROUND")
+    if path is None:
+        pytest.skip("not run: no playground; run `cargo xtask playground` and name the page in "
+                    "ROCKING_WALL_PLAYGROUND")  # fmt: skip
+    return Path(path).absolute()
+
+
+LINES = ["PEER", "A TEST", "ACCELERATION TIME SERIES IN UNITS OF G", "NPTS= 1000, DT= .01 SEC"]
+
+
+@pytest.fixture(scope="session")
+def reproduction(wall, tmp_path_factory):
+    """The page of `wall verify paper` with three records."""
+    folder = tmp_path_factory.mktemp("reproduce")
+    records = folder / "records"
+    records.mkdir()
+    for number in (1, 2, 3):
+        samples = (
+            0.3 * math.sin(4.0 * number * 0.01 * i) * math.sin(math.pi * i / 1000) for i in range(1000)
+        )
+        (records / f"{number}.AT2").write_text("\n".join(LINES + [f"{a:15.7E}" for a in samples]) + "\n")
+    path = folder / "paper.html"
+    command = [wall, "verify", "paper", "--records", records, "-o", path]
+    subprocess.run(command, check=True, capture_output=True)
+    return path
+
+
+@pytest.fixture(scope="session")
+def building(wall, tmp_path_factory):
+    """The page of a building under the synthetic motion."""
+    page = tmp_path_factory.mktemp("page") / "building.html"
+    scene = ROOT / "scenes/building/three_storeys.toml"
+    motion = ["--synthetic", "--tail", "2"]
+    subprocess.run([wall, "building", scene, *motion, "--html", page], check=True, capture_output=True)
+    return page

@@ -10,8 +10,6 @@ import pytest
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 
-from conftest import ROOT
-
 
 def make(wall, path, *arguments):
     subprocess.run([wall, "simulate", *arguments, "--html", path], check=True, capture_output=True)
@@ -122,15 +120,6 @@ def test_overturning_is_marked(browser, fallen):
     assert browser.find_element(By.ID, "overturned").text == ""
     move(browser, 1.0)
     assert browser.find_element(By.ID, "overturned").text.startswith("overturned at t = ")
-
-
-@pytest.fixture(scope="module")
-def building(wall, tmp_path_factory):
-    page = tmp_path_factory.mktemp("page") / "building.html"
-    scene = ROOT / "scenes/building/three_storeys.toml"
-    motion = ["--synthetic", "--tail", "2"]
-    subprocess.run([wall, "building", scene, *motion, "--html", page], check=True, capture_output=True)
-    return page
 
 
 def test_the_page_of_a_building_opens_with_its_verdict(browser, building):

@@ -4,12 +4,10 @@ The PDF that Chromium makes shows it: colours, and what stands on which sheet.
 """
 
 import base64
-import os
 import re
 import subprocess
 import zlib
 from collections import Counter
-from pathlib import Path
 
 import pytest
 
@@ -32,17 +30,18 @@ spectrum = [[0, 2], [0.1, 5], [0.4, 5], [1, 2], [2, 1], [4, 0.25]]
 unit = "m/s2"
 """
 # Arguments of `wall` in a folder with study.toml and scene.toml, and coloured boxes that the page has at
-# least: swatches, lines of a key, intervals, shaded cells. {} is the page.
+# least: swatches, lines of a key, intervals, shaded cells. {} is the page. Pages without arguments are those
+# of other tests.
 PAGES = {
     "simulate": ("simulate --synthetic --html {}", 0),
     "full rotations": ("simulate --set force_law=rigid_linear --set damping_model=none "
                        "--set impact=restitution --synthetic --html {}", 0),
-    "building": (f"building {ROOT / 'scenes/building/three_storeys.toml'} --synthetic --html {{}}", 10),
+    "building": (None, 10),
     "study": ("study ida study.toml -o out", 6),
     "spectrum": ("study spectrum --synthetic --heights 1:6:6 --ratios 5:20:6 --html {}", 1),
     "stability": ("verify stability --columns 2 --html {}", 0),
     "calibrate": ("study calibrate --restitution 0.84,0.92 --a1 0.02,0.05 --html {}", 0),
-    "reproduce": ("verify paper -o {}", 20),
+    "reproduce": (None, 20),
     "check report": (f"check {ROOT / 'scenes/checked_parapet.toml'} --report {{}}", 0),
     "check": ("check scene.toml --report {}", 0),
     "accuracy": (f"verify accuracy {ROOT / 'scenes/shaken_parapet.toml'} --budget 0.001 --html {{}}", 3),
@@ -59,10 +58,7 @@ def page(request, browser, wall, tmp_path_factory):
     folder = tmp_path_factory.mktemp("paper")
     path = folder / ("out/study.html" if request.param == "study" else "page.html")
     if arguments is None:
-        if "ROCKING_WALL_PLAYGROUND" not in os.environ:
-            pytest.skip("not run: no playground; run `cargo xtask playground` and name the page in "
-                        "ROCKING_WALL_PLAYGROUND")  # fmt: skip
-        path = Path(os.environ["ROCKING_WALL_PLAYGROUND"]).absolute()
+        path = request.getfixturevalue("reproduction" if request.param == "reproduce" else request.param)
     else:
         (folder / "study.toml").write_text(STUDY)
         (folder / "scene.toml").write_text(SCENE)

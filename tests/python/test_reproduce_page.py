@@ -3,30 +3,10 @@
 They load without errors and fit narrow and wide windows.
 """
 
-import math
 import subprocess
 
 import pytest
 from selenium.webdriver.common.by import By
-
-LINES = ["PEER", "A TEST", "ACCELERATION TIME SERIES IN UNITS OF G", "NPTS= 1000, DT= .01 SEC"]
-
-
-@pytest.fixture(scope="module")
-def reproduction(wall, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("reproduce")
-    records = folder / "records"
-    records.mkdir()
-    for number in (1, 2, 3):
-        samples = (
-            0.3 * math.sin(4.0 * number * 0.01 * i) * math.sin(math.pi * i / 1000) for i in range(1000)
-        )
-        (records / f"{number}.AT2").write_text("\n".join(LINES + [f"{a:15.7E}" for a in samples]) + "\n")
-    path = folder / "paper.html"
-    command = [wall, "verify", "paper", "--records", records, "-o", path]
-    subprocess.run(command, check=True, capture_output=True)
-    return path
-
 
 @pytest.fixture(scope="module")
 def calibration(wall, tmp_path_factory):

@@ -177,8 +177,7 @@ fn example() -> Result<PathBuf> {
 fn python() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let python = Environment::of("tests")?;
-    // whole files: what a file builds or unpacks is made once
-    let mut pytest = pytest(&python, "tests/python", Some("loadfile"));
+    let mut pytest = pytest(&python, "tests/python", Some("loadgroup"));
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
     pytest.env("ROCKING_WALL_BALL", example()?);
