@@ -9,10 +9,12 @@ from xml.etree import ElementTree
 
 import pytest
 from selenium import webdriver
+from xdist.scheduler import LoadFileScheduling
 
 from unit import Unit
 
 ROOT = Path(__file__).parents[2]
+OF_PAGES = ("test_page.py", "test_paper.py", "test_playground.py", "test_reproduce_page.py")
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = (
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -102,13 +104,16 @@ def unpacked_floor(floor_fmu):
         yield unpacked
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items):
-    """Runs all files that use the browser in one process, and each other file in one: what a file builds or
-    unpacks is made once."""
-    shown = {item.path for item in items if "browser" in item.fixturenames}
-    for item in items:
-        item.add_marker(pytest.mark.xdist_group("browser" if item.path in shown else item.path.stem))
+class WholeFiles(LoadFileScheduling):
+    """Runs each file in one process, and those of pages in the same: what they build is made once."""
+
+    def _split_scope(self, nodeid):
+        file = Path(super()._split_scope(nodeid)).name
+        return "pages" if file in OF_PAGES else file
+
+
+def pytest_xdist_make_scheduler(config, log):
+    return WholeFiles(config, log)
 
 
 @pytest.fixture(scope="session")
