@@ -7,7 +7,7 @@ import sys
 
 import rocking_wall as rw
 
-record = rw.read_record(*sys.argv[1:]) if sys.argv[1:] else rw.synthetic_record(3, duration=20)
+record = rw.read_record(*sys.argv[1:]) if sys.argv[1:] else rw.synthetic_record(3, duration=12)
 for height in (1.5, 3.0, 6.0):
     wall = rw.Wall(height=height, thickness=height / 10)
     pulses = wall.record_pulses(record)

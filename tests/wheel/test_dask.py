@@ -6,10 +6,6 @@ import signal
 import threading
 import time
 
-import distributed
-import duckdb
-import pandas
-import polars
 import pytest
 
 import rocking_wall as rw
@@ -17,8 +13,8 @@ import rocking_wall as rw
 STUDY = """
 title = "Two workers"
 models = ["CR", "CDC"]
-levels = { method = "hunt", first = 0.05, increase = 0.05, top = 8, gap = 0.02 }
-records = { files = ["beat.csv"], unit = "g", synthetic = { count = 3, duration = 20, step = 0.005 } }
+levels = { method = "hunt", first = 0.05, increase = 0.05, top = 8, gap = 0.1 }
+records = { files = ["beat.csv"], unit = "g", synthetic = { count = 3, duration = 10, step = 0.01 } }
 report = { resamples = 100 }
 classes = [{ name = "all" }]
 hazard = { points = [[0.05, 0.03], [0.2, 0.002], [0.8, 1e-4]] }
@@ -59,11 +55,19 @@ def test_a_study_is_sent_as_it_is(study):
 
 
 def test_two_workers_one_killed(study, program, tmp_path):
+    # large packages are imported by the process that needs them
+    import dask
+    import distributed
+
     program("study", "ida", study, "-o", tmp_path / "alone")
-    cluster = distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
-    )
-    with cluster, distributed.Client(cluster) as client:
+    # workers are forks of one process that has imported distributed
+    forks = dask.config.set({"distributed.worker.multiprocessing-method": "forkserver"})
+    local = {"processes": True, "dashboard_address": None, "host": "127.0.0.1"}
+    with (
+        forks,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, **local) as cluster,
+        distributed.Client(cluster) as client,
+    ):
         victim = next(iter(client.run(os.getpid).values()))
         out = tmp_path / "dask"
         killed = []
@@ -89,6 +93,11 @@ def test_two_workers_one_killed(study, program, tmp_path):
 
 
 def test_a_folder_goes_on_and_is_read(study, tmp_path):
+    import distributed
+    import duckdb
+    import pandas
+    import polars
+
     out = tmp_path / "out"
     with distributed.Client(processes=False, dashboard_address=None, n_workers=1) as client:
         rw.dask.run(rw.Study(study), client, out, progress=False)

@@ -177,7 +177,8 @@ fn example() -> Result<PathBuf> {
 fn python() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
     let python = Environment::of("tests")?;
-    let mut pytest = pytest(&python, "tests/python", Some("loadgroup"));
+    // whole files, and those of pages together: tests/python/conftest.py
+    let mut pytest = pytest(&python, "tests/python", Some("loadfile"));
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor);
     pytest.env("ROCKING_WALL_BIN", wall).env("ROCKING_WALL_RECORDS", records());
     pytest.env("ROCKING_WALL_BALL", example()?);
@@ -196,7 +197,8 @@ fn python_package() -> Result<()> {
     for environment in [&python, &bare, &fmpy] {
         wheel::install(&package, environment)?;
     }
-    let mut pytest = pytest(&python, "tests/wheel", Some("worksteal"));
+    // whole files: what a file makes is made once
+    let mut pytest = pytest(&python, "tests/wheel", Some("loadfile"));
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_WALL_BIN", programs().join("wall"));
     pytest.env("ROCKING_WALL_BARE_PYTHON", bare.programs().join("python"));
     pytest.env("ROCKING_WALL_FMPY_PYTHON", fmpy.programs().join("python"));
