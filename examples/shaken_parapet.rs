@@ -13,12 +13,12 @@
 use std::error::Error;
 
 use ground_motion::{RecordOptions, SyntheticMotion};
-use rocking_wall::response::Response;
-use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::Wall;
 use run::file::to_file;
 use run::record_facts::samples;
+use scene::response::Response;
+use scene::{DEFAULT_TAIL, Scene};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -1,7 +1,7 @@
 //! A parapet under a record: peaks, demands and overturning.
 //!
 //! ```text
-//! cargo run --example wall_under_record
+//! cargo run --package rocking-scene --example wall_under_record
 //! ```
 
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
@@ -9,9 +9,9 @@
 use std::error::Error;
 
 use ground_motion::SyntheticMotion;
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
+use scene::Scene;
+use scene::response::Response;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Every parameter that is not set keeps the default of modelDescription.xml.

@@ -8,7 +8,7 @@ use std::{fs, io};
 
 /// The solvers and what they use, the levels and models of a study, and the versions of the crates of others.
 /// A module or crate that a run comes to depend on belongs here.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 14] = [
     "../../Cargo.lock",
     "../../modelDescription/modelDescription.xml",
     "../../src",
@@ -21,6 +21,7 @@ const SOURCES: [&str; 13] = [
     "../run/src/model.rs",
     "../run/src/parallel.rs",
     "../run/src/shaking.rs",
+    "../scene/src",
     "src/ida",
 ];
 

@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use rocking_wall::scene::{Scene, to_toml};
+use scene::{Scene, to_toml};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::wall::Support;
 use std::path::Path;

@@ -9,7 +9,7 @@
 //! and, unless assertions slow it down, a call that takes over a second.
 
 use fmu_export::ModelExchange;
-use rocking_wall::scene::{self, Scene};
+use scene::Scene;
 use rocking_wall_fuzz::driver::{Figures, Instance};
 use std::error::Error;
 use std::path::Path;

@@ -94,4 +94,4 @@ pub(crate) use turn::Turn;
 pub use usage::{Usage, usage};
 pub use usual::Usual;
 pub use warning::Warning;
-pub(crate) use warning::six_digits;
+pub use warning::six_digits;

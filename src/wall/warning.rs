@@ -108,8 +108,8 @@ fn unusual(name: &str, value: f64, unit: &str, usual: [f64; 2], meant: Option<(&
     format!("{name} = {value}{unit} is unusual: {least} to {most}{unit} is usual; {remedy}")
 }
 
-/// A number to six digits, in powers of ten where it is very large or small.
-pub(crate) fn six_digits(value: f64) -> String {
+/// Writes a number to six digits, in powers of ten where it is very large or small.
+pub fn six_digits(value: f64) -> String {
     let rounded = format!("{value:.5e}").parse().unwrap_or(value);
     if value == 0.0 || (1e-4..1e9).contains(&value.abs()) {
         format!("{rounded}")

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use rocking_wall::response::Response;
-use rocking_wall::scene::{Scene, to_toml};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, TieSide};
 use rocking_wall::wall::{Bar, Parameters, TiePart, Wall};
+use scene::response::Response;
+use scene::{Scene, to_toml};
 
 /// A parapet of 2 m and a bar every 3 m.
 const TIED: &str = "[geometry]\nheight = 3.0\nthickness = 0.4\nwidth = 2.0\n[tie]\ntie_height = 2.6\n\

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use rocking_wall::scene::Scene;
 use rocking_wall::wall::{Parameters, Wall};
+use scene::Scene;
 
 const PART: &str = "[[geometry.part]]\nheight = 3.0\nthickness = 0.3\n";
 const BODY: &str =
@@ -199,7 +199,7 @@ fn parts_are_written_as_they_are_read() {
     for name in ["battered_wall", "chimney", "facade", "gable", "stepped_strip", "wall_with_opening"] {
         let path = crate::root().join(format!("scenes/bodies/{name}.toml"));
         let scene = Scene::read(&path).unwrap();
-        let text = rocking_wall::scene::to_toml(&scene, "");
+        let text = scene::to_toml(&scene, "");
         let again = Scene::parse("again.toml", &text, Path::new("nowhere")).unwrap();
         assert_eq!(again.parameters, scene.parameters, "{text}");
     }

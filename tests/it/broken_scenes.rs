@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use files::check_value;
-use rocking_wall::scene::{Document, Scene};
+use scene::{Document, Scene};
 
 use crate::broken::walk;
 

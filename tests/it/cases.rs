@@ -5,11 +5,11 @@
 
 use std::path::PathBuf;
 
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Work;
 use rocking_wall::variables::{DampingModel, Solver};
 use rocking_wall::wall::{Parameters, Support};
+use scene::Scene;
 use serde::Deserialize;
 
 /// The result of a reference program; times in s, displacements in m.

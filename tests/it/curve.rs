@@ -3,10 +3,10 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use rocking_wall::response::Response;
-use rocking_wall::scene::{Scene, to_toml};
 use rocking_wall::unit::UnitScene;
 use rocking_wall::wall::{Parameters, Wall, Warning};
+use scene::response::Response;
+use scene::{Scene, to_toml};
 
 /// A folder with the file `pushover.csv` of a text.
 fn folder(name: &str, curve: &str) -> PathBuf {

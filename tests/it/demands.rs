@@ -3,12 +3,12 @@
 
 use ground_motion::SyntheticMotion;
 use proptest::prelude::*;
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::{Excitation, Simulation};
 use rocking_wall::solver::{Demands, Extremes, Instant, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Ends, Parameters, Support, Wall};
+use scene::Scene;
+use scene::response::Response;
 
 use crate::configuration::{configuration, mostly};
 use crate::properties::{onset, walls};
@@ -339,7 +339,7 @@ fn a_scene_states_its_limit_states() {
     let response = Response::of(&scene).unwrap();
     let fractions: Vec<f64> = response.demands.crossings.iter().map(|crossing| crossing.fraction).collect();
     assert_eq!(fractions, [0.25, 0.75]);
-    assert_eq!(read(&rocking_wall::scene::to_toml(&scene, "")).thresholds, scene.thresholds);
+    assert_eq!(read(&scene::to_toml(&scene, "")).thresholds, scene.thresholds);
     assert_eq!(read("").thresholds, [0.1, 0.4, 0.6, 1.0]);
 }
 

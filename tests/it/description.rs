@@ -1,13 +1,13 @@
 //! Compares the model description with the promised names, and the documentation with the description.
 
 use fmu_export::{Causality, Kind, Variable, VariableId};
-use rocking_wall::scene::Scene;
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
     DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, RealVariable, RestitutionSource, Rocking,
     Softening, Solver, TieSide,
 };
 use rocking_wall::wall::{Parameters, usage};
+use scene::Scene;
 
 use crate::page;
 
@@ -75,9 +75,9 @@ fn items_have_the_names_others_rely_on_and_count_from_one() {
 
 #[test]
 fn the_head_of_the_scene_names_every_table_of_parameters() {
-    let scene = include_str!("../../src/scene/mod.rs");
+    let scene = include_str!("../../crates/scene/src/lib.rs");
     let head = scene.split("\n\n").next().unwrap();
-    for (group, _) in rocking_wall::scene::GROUPS {
+    for (group, _) in scene::GROUPS {
         assert!(head.contains(&format!("`[{group}]`")), "{group}");
     }
 }

@@ -5,10 +5,10 @@ use std::fmt::Write;
 use fmu_export::{Interface, Log, Model as _, Step};
 use ground_motion::GroundMotion;
 use rocking_wall::choices::Mechanism;
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::RealVariable;
+use scene::Scene;
+use scene::response::Response;
 
 use crate::chain::{STOREYS, TAIL, ground, integrated, storeys};
 use crate::instantiated;
@@ -124,7 +124,7 @@ fn storeys_refuse_a_motion_that_is_held() {
 fn a_scene_with_storeys_is_written_and_read_back() {
     let text = scene(STRIP, "bottom = 1\ntop = 2\ndrift = false", 0.03);
     let first = Scene::parse("scene", &text, ".".as_ref()).unwrap();
-    let written = rocking_wall::scene::to_toml(&first, "synthetic = { duration = 10.0 }\n");
+    let written = scene::to_toml(&first, "synthetic = { duration = 10.0 }\n");
     let again = Scene::parse("again", &written, ".".as_ref()).unwrap();
     assert_eq!(first.floors, again.floors);
 }

@@ -6,12 +6,12 @@
 use std::path::Path;
 
 use fmu_export::{Environment, Interface, Log, Model};
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::unit::{Unit, UnitScene};
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Support, Wall};
+use scene::Scene;
 
 mod bars;
 mod bodies;

@@ -2,11 +2,11 @@
 //! scene's own motion.
 
 use fmu_export::{Experiment, Interface, Log, Model as _, ModelExchange as _};
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::{Handled, Simulation};
 use rocking_wall::solver::{Event, INDICATORS, Phase, Work};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, RealVariable, Rocking, Softening};
 use rocking_wall::wall::{BranchDamping, Ends, Parameters, Support, Wall};
+use scene::Scene;
 
 use crate::{instantiated, secant_models, start};
 

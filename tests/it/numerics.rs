@@ -2,12 +2,12 @@
 
 use proptest::prelude::*;
 use record::{Forcing, RecordSolver, RunEnd, RunStart};
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::{Progress, Simulation};
 use rocking_wall::solver::{Method, Motion, Segment, Work};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, Softening, Solver};
 use rocking_wall::wall::{Parameters, Ratio, Support, Wall};
+use scene::Scene;
+use scene::response::Response;
 
 use crate::configuration::mostly;
 use crate::properties::{COMPARED, motions};

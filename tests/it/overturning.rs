@@ -1,11 +1,11 @@
 //! What "overturned", "falls" and "beyond `u_ins` and back" mean, and the one rule for u/`u_ins` after it.
 
 use ground_motion::SyntheticMotion;
-use rocking_wall::response::{Fate, Response};
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
+use scene::Scene;
+use scene::response::{Fate, Response};
 
 /// The default parapet under `scale` times the synthetic motion, with a tie of a stiffness [N/m].
 fn scene(scale: f64, tie_stiffness: f64, tie_side: TieSide) -> Scene {

@@ -3,11 +3,11 @@
 
 use fmu_export::{Interface, Log, Model as _, Step};
 use proptest::prelude::*;
-use rocking_wall::scene::{Scene, to_toml};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::{Demands, Extremes, Phase, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, RealVariable as V};
 use rocking_wall::wall::{Parameters, Support, Wall};
+use scene::{Scene, to_toml};
 
 use crate::configuration::{mostly, mostly_of};
 use crate::instantiated;

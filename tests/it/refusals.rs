@@ -1,10 +1,10 @@
 //! Tests which parameters and starts are refused, and that others near their limits are not.
 
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::solver::Motion;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, Rocking, Solver};
 use rocking_wall::wall::{COMPUTED, Parameters, Wall};
+use scene::Scene;
+use scene::response::Response;
 
 /// Makes the wall of the start values with a change.
 fn made(change: impl Fn(&mut Parameters)) -> Result<Wall, String> {

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use fmu_export::{Interface, Log, Model as _, Step, VariableId as _};
 use ground_motion::{GroundMotion, SyntheticMotion};
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::unit::UnitScene;
 use rocking_wall::variables::RealVariable as V;
+use scene::Scene;
+use scene::response::Response;
 
 use crate::of_payload;
 use crate::yielding_unit::scene as tied;

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use fmu_export::{Interface, Model as _};
 use proptest::collection::vec;
 use proptest::prelude::*;
-use rocking_wall::scene::{Scene, to_toml};
 use rocking_wall::simulation::Outputs;
 use rocking_wall::unit::UnitScene;
 use rocking_wall::variables::{BooleanVariable, Mechanism, RealVariable as V, Rocking, TieSide};
 use rocking_wall::wall::{Parameters, Support, TieMemory, TieNumbers, Wall};
+use scene::{Scene, to_toml};
 
 use crate::configuration::mostly;
 use crate::properties::{COMPARED, Run, allowed, apart, motions, solvers_agree, splits};

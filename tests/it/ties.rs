@@ -1,12 +1,12 @@
 //! Ties: the same motion by every solver and path, energy, forces, demands, refusals.
 
 use proptest::prelude::*;
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::ACCURACY;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism, TieSide};
 use rocking_wall::wall::{Parameters, Support, Wall, Warning};
+use scene::Scene;
+use scene::response::Response;
 
 use crate::configuration::{configuration, mostly};
 use crate::properties::{COMPARED, motions, solvers_agree, splits, walls};

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::solver::{Memo, Method, Motion, Segment, State};
 use rocking_wall::variables::{DampingModel, EccentricityMode, ForceLaw, Impact, Mechanism, Solver};
 use rocking_wall::wall::{Kinematics, Parameters, Support, Wall};
+use scene::Scene;
+use scene::response::Response;
 
 const MECHANISMS: [Mechanism; 2] = [Mechanism::Parapet, Mechanism::VerticalSpanning];
 

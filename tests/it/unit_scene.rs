@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use fmu_export::{Interface, Log};
 use ground_motion::GroundMotion;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::unit::UnitScene;
 use rocking_wall::wall::{Kinematics, Parameters};
+use scene::Scene;
 
 use crate::of_payload;
 

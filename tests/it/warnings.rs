@@ -5,12 +5,12 @@ use std::path::Path;
 use std::sync::{Arc, Mutex};
 
 use fmu_export::{Category, Experiment, Filter, Interface, Log, Model, Status, Step};
-use rocking_wall::scene::Scene;
 use rocking_wall::unit::Unit;
 use rocking_wall::variables::{
     DampingModel, Impact, IntegerVariable, Mechanism, RealVariable, Rocking, Solver, TieSide,
 };
 use rocking_wall::wall::{Kinematics, Parameters, TieNumbers, Wall, usage};
+use scene::Scene;
 
 use crate::instantiated;
 

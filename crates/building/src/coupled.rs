@@ -9,9 +9,9 @@ use fmu_export::{Step, VariableId};
 use ground_motion::GroundMotion;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 use rocking_floor::variables::RealVariable as FloorVariable;
-use rocking_wall::scene::MotionTable;
 use rocking_wall::variables::RealVariable as WallVariable;
 use run::parallel::stop_if_asked;
+use scene::MotionTable;
 
 use crate::error::BuildingError;
 use crate::histories::{FloorHistory, History, WallHistory};

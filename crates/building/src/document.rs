@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use files::{FileError, Place, Schema, TomlFile, file_schema, number, object, read_text, tables, text, with};
 use fmu_export::{Causality, Kind, Variable, VariableId};
 use rocking_floor::variables::{IntegerVariable, RealVariable};
-use rocking_wall::scene::{self, Group, LONGEST_RUN};
+use scene::{self, Group, LONGEST_RUN};
 use toml::{Spanned, Value};
 
 /// The name that stands for the ground where a storey's would.

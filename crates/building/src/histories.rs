@@ -1,8 +1,8 @@
 //! Floors and walls in time: values at the samples of the record, and peaks at all communication points.
 
-use rocking_wall::response::Fate;
 use rocking_wall::solver::reported_peak;
 use rocking_wall::wall::Wall;
+use scene::response::Fate;
 
 /// A largest absolute value, and when it came.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,9 +6,9 @@ use std::path::Path;
 use fmu_export::VariableId;
 use fmu_export_build::Reduction;
 use fmu_export_build::archive::Archive;
-use rocking_wall::scene::Scene;
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::Wall;
+use scene::Scene;
 use scene_fmu::{General, experiment, of_scene_in};
 
 use crate::document::{Building, Floor, Member, Parameter, fmu_path};

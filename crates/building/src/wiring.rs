@@ -2,8 +2,8 @@
 
 use fmu_export::{Variable, VariableId};
 use rocking_floor::variables::RealVariable as FloorVariable;
-use rocking_wall::scene::Scene;
 use rocking_wall::variables::{BooleanVariable, RealVariable as WallVariable};
+use scene::Scene;
 
 use crate::document::{Building, Floor, Member, Support};
 use crate::error::BuildingError;

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use files::FileError;
-use rocking_wall::scene::{Scene, SceneError};
 use run::walls::NamedWall;
+use scene::{Scene, SceneError};
 
 use crate::code::before::Before;
 use crate::code::{Code, Subject};

@@ -2,8 +2,8 @@
 
 use files::FileError;
 use ground_motion::GroundMotionError;
-use rocking_wall::scene::SceneError;
 use rocking_wall::wall::{ParameterError, Warning};
+use scene::SceneError;
 
 /// Why a check is impossible.
 #[derive(Debug, thiserror::Error)]

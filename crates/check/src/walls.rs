@@ -6,10 +6,10 @@ use std::convert::Infallible;
 use files::FileError;
 use report::page::Page;
 use report::table::{Column, Digits, Table};
-use rocking_wall::scene::SceneError;
 use run::parallel;
 use run::records::NamedRecord;
 use run::walls::NamedWall;
+use scene::SceneError;
 use serde_json::{Value, json};
 
 use crate::code::verdict::Verdict;

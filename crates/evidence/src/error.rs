@@ -5,10 +5,10 @@ use files::FileError;
 use fragility::FitError;
 use fragility::hazard::HazardError;
 use ground_motion::GroundMotionError;
-use rocking_wall::scene::SceneError;
 use rocking_wall::solver::SolverError;
 use rocking_wall::wall::ParameterError;
 use run::rotations::RotationsError;
+use scene::SceneError;
 use study::calibration::CalibrationError;
 use study::spectrum::SpectrumError;
 

@@ -1,10 +1,10 @@
 //! The charts of a run.
 
 use report::plot::{Plot, stacked};
-use rocking_wall::response::{Response, Sample};
 use rocking_wall::wall::Wall;
 use run::figure as plots;
 use run::page::tie;
+use scene::response::{Response, Sample};
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -2,8 +2,8 @@
 
 use fmu_export::Kind;
 use report::number;
-use rocking_wall::scene::{GROUPS, Scene, parameter_text, variable};
 use rocking_wall::wall::{Bar, Damping, Parameters, Wall, is_computable, usage};
+use scene::{GROUPS, Scene, parameter_text, variable};
 use serde_json::{Value, json};
 
 use crate::request::Fields;

@@ -4,10 +4,10 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use ground_motion::{GroundMotion, GroundMotionError, Pulse, Shape, SyntheticMotion};
-use rocking_wall::scene::{DEFAULT_TAIL, Scene, read_shape, to_toml};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Profile, Wall};
+use scene::{DEFAULT_TAIL, Scene, read_shape, to_toml};
 
 use crate::check_table;
 use crate::request::{Faults, Fields, Inputs, fault_of};

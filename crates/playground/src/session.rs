@@ -1,8 +1,8 @@
 //! From a request to its answer.
 
-use rocking_wall::response::Response;
 use rocking_wall::simulation::Excitation;
 use run::page;
+use scene::response::Response;
 use serde_json::{Value, json};
 
 use crate::charts::{Frames, captions, charts, file, inline};

@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
+use scene::Scene;
+use scene::response::Response;
 use serde_json::{Value, json};
 
 use crate::Session;

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use ground_motion::{Format, Record, RecordOptions, Unit, parse};
-use rocking_wall::scene::fingerprint;
+use scene::fingerprint;
 
 use crate::request::{Faults, Fields, fault_of};
 

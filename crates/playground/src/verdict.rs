@@ -1,12 +1,12 @@
 //! The result in a sentence, and its numbers.
 
 use report::number;
-use rocking_wall::response::{Fate, Response};
-use rocking_wall::scene::Scene;
 use rocking_wall::solver::Yielding;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::Wall;
 use run::page::tie;
+use scene::Scene;
+use scene::response::{Fate, Response};
 use serde_json::{Value, json};
 
 /// Part of the static instability displacement below which the wall counts as not having moved.

@@ -8,7 +8,7 @@ use files::FileError;
 use ground_motion::GroundMotionError;
 use pyo3::PyErr;
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyRuntimeError, PyValueError};
-use rocking_wall::scene::SceneError;
+use scene::SceneError;
 
 /// Makes a `ValueError`: something given cannot be used.
 pub(crate) fn refused(error: impl Display) -> PyErr {

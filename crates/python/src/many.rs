@@ -7,10 +7,10 @@ use files::check_value;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use record::{LANES, Outcome, RecordSolver, RunEnd};
-use rocking_wall::scene::MotionTable;
 use rocking_wall::solver::Motion as Solved;
 use run::parallel;
 use run::shaking::{Shaken, Shaking, felt, together};
+use scene::MotionTable;
 
 use crate::arrays::{Motion, Numbers, samples};
 use crate::errors::{failed, of_motion, refused};

@@ -4,8 +4,8 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use report::plot::stacked;
-use rocking_wall::response::{COLUMNS, Column, Response, TieSample};
 use run::figure;
+use scene::response::{COLUMNS, Column, Response, TieSample};
 
 use crate::arrays::samples;
 use crate::errors::failed;

@@ -8,8 +8,8 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use reliability::Codes;
-use rocking_wall::scene::SceneError;
 use run::records::Listed;
+use scene::SceneError;
 use study::folder::{Contents, encode};
 use study::loaded::{LoadedStudy, Sent};
 

@@ -3,10 +3,10 @@
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rocking_wall::scene::{GROUPS, KINEMATICS, POINTS, Scene, parameter_text};
 use rocking_wall::wall::Parameters;
 use run::wall_parameters::{check_parameter, wall_parameters};
 use run::walls::{NamedWall, assumed, with_curve};
+use scene::{GROUPS, KINEMATICS, POINTS, Scene, parameter_text};
 
 use crate::errors::refused;
 use crate::walls::{Wall, set_all};

@@ -3,8 +3,8 @@
 use files::file_schema;
 use fmu_export::{Causality, VariableId};
 use pyo3::prelude::*;
-use rocking_wall::scene::Document;
 use rocking_wall::variables::RealVariable;
+use scene::Document;
 use study::document::StudyFile;
 
 use crate::errors::failed;

@@ -8,16 +8,16 @@ use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rocking_wall::response::Response;
-use rocking_wall::scene::{
-    Curve, Document, Floors, GROUPS, KINEMATICS, MotionTable, OF_BODY, POINTS, Scene, StoreyTable,
-    SupportsTable, apply_curve, parameter_text, set_names, to_toml,
-};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::Method;
 use rocking_wall::wall::{OF_RECTANGLE, Parameters, Wall as Equation};
 use run::capacity::{plot, with_curve};
 use run::walls::{assumed, read_scene};
+use scene::response::Response;
+use scene::{
+    Curve, Document, Floors, GROUPS, KINEMATICS, MotionTable, OF_BODY, POINTS, Scene, StoreyTable,
+    SupportsTable, apply_curve, parameter_text, set_names, to_toml,
+};
 use scene_fmu::General;
 
 use crate::arrays::Motion;
@@ -346,7 +346,7 @@ pub(crate) fn set_all(scene: &mut Scene, parameters: &Bound<'_, PyDict>) -> PyRe
             }
         }
         let known = set_names().any(|known| known == name);
-        let unknown = |error: rocking_wall::scene::SceneError| PyTypeError::new_err(error.to_string());
+        let unknown = |error: scene::SceneError| PyTypeError::new_err(error.to_string());
         scene.set(&name, &text).map_err(if known { of_scene } else { unknown })?;
     }
     let points = parameters.get_item(POINTS)?.map(|points| points.extract::<Vec<[f64; 2]>>()).transpose();

@@ -2,7 +2,7 @@
 
 use check::{CheckFile, read};
 use files::{FileError, TomlFile};
-use rocking_wall::scene::SceneError;
+use scene::SceneError;
 
 /// The codes that this program knows, for studies.
 ///
@@ -23,7 +23,7 @@ use rocking_wall::scene::SceneError;
 /// "#;
 /// let measure = StudyFile::parse("study.toml", text, &Codes)?.measure;
 /// assert!(matches!(measure, IntensityMeasure::Code { shape, .. } if shape == [2.4]));
-/// # Ok::<(), rocking_wall::scene::SceneError>(())
+/// # Ok::<(), scene::SceneError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Codes;

@@ -33,8 +33,8 @@ mod table;
 mod wall;
 
 use check::{CheckFile, WallCodes};
-use rocking_wall::scene::SceneError;
 use run::walls::NamedWall;
+use scene::SceneError;
 
 use study::ida::{Curve, IntensityMeasure, Levels};
 use study::loaded::LoadedStudy;

@@ -13,7 +13,6 @@
 use report::palette::{AMBER, BLUE, DARK_GREY, GREEN, Mark, PURPLE, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use report::table::{Digits, Table};
-use rocking_wall::scene;
 use rocking_wall::wall::{CapacityPoint, Wall};
 use serde_json::{Value, json};
 

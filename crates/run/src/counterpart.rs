@@ -1,9 +1,9 @@
 //! A run beside the same run in the other kinematics: what small rotations leave out of it.
 
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::variables::Solver;
 use rocking_wall::wall::{Kinematics, Parameters, Wall};
+use scene::Scene;
+use scene::response::Response;
 
 use crate::rotations::{Period, SLENDERNESS, period};
 
@@ -13,8 +13,8 @@ const AMPLITUDES: [f64; 2] = [0.01, 0.99];
 /// A run in small and in full rotations.
 ///
 /// ```
-/// use rocking_wall::response::Response;
-/// use rocking_wall::scene::Scene;
+/// use scene::response::Response;
+/// use scene::Scene;
 /// use run::counterpart::Counterpart;
 ///
 /// let block = "[force_law]\nforce_law = \"rigid_linear\"\n[damping]\ndamping_model = \"none\"\n\
@@ -22,7 +22,7 @@ const AMPLITUDES: [f64; 2] = [0.01, 0.99];
 /// let scene = Scene::parse("block", block, ".".as_ref())?;
 /// let both = Counterpart::of(&scene, &Response::of(&scene)?).expect("full rotations allow it");
 /// assert!(both.period.ratio() < 1.0 && both.linear.len() == both.trigonometric.len());
-/// # Ok::<(), rocking_wall::scene::SceneError>(())
+/// # Ok::<(), scene::SceneError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counterpart {

@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use report::counted;
 
-use rocking_wall::response::{Fate, Response, Shock, Summary};
-use rocking_wall::scene::Scene;
 use rocking_wall::solver::{Crossing, Extremes, Instant, TieDemands, Work, Yielding};
 use rocking_wall::variables::Mechanism;
+use scene::Scene;
+use scene::response::{Fate, Response, Shock, Summary};
 
 /// The summary of a run, a name and a value in each line.
 pub fn summary(scene: &Scene, response: &Response) -> String {

@@ -10,9 +10,8 @@
 use report::palette::{AMBER, BLUE, DARK_GREY, Mark, RED};
 use report::plot::{Axis, Look, Plot, Series};
 use report::points::{Point, Points, decimated, within};
-use rocking_wall::response::Sample;
-use rocking_wall::scene;
 use rocking_wall::wall::{Tie, Wall};
+use scene::response::Sample;
 
 /// Width of the plots \[px\].
 pub const WIDTH: f64 = 620.0;

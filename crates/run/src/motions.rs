@@ -2,7 +2,7 @@
 
 use report::counted;
 use report::table::{Column, Digits, Table};
-use rocking_wall::response::Summary;
+use scene::response::Summary;
 use serde_json::{Value, json};
 
 use crate::demands;

@@ -1,7 +1,7 @@
 //! A wall of a study: its parameters under a name, and which of them its file states.
 
-use rocking_wall::scene::Floors;
 use rocking_wall::wall::Parameters;
+use scene::Floors;
 
 /// A wall of a study. It starts upright and at rest, with the damping and impact of the study's models.
 #[derive(Clone, Debug, PartialEq)]

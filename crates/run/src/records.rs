@@ -9,7 +9,7 @@ use ground_motion::{
     DEFAULT_PAUSE, Format, GroundMotion, GroundMotionError, Record, RecordOptions, SyntheticMotion, Unit,
     escapes, file_name, is_listed, read,
 };
-use rocking_wall::scene::{LONGEST_TAIL, RecordTable, SceneError, Shocks};
+use scene::{LONGEST_TAIL, RecordTable, SceneError, Shocks};
 use toml::Spanned;
 
 pub use crate::record_warning::{Reason, RecordWarning};

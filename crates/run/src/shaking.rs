@@ -6,10 +6,10 @@ use std::sync::OnceLock;
 
 use ground_motion::GroundMotion;
 use record::{BatchRun, Blocks, Forcing, Outcome, RecordSolver, RunEnd, RunStart, run_together};
-use rocking_wall::scene::{Floors, SceneError};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{SolverError, State};
 use rocking_wall::wall::{Body, Support};
+use scene::{Floors, SceneError};
 
 use crate::free_motion::peak_is_final;
 

@@ -1,8 +1,8 @@
 //! The parameters of a wall that a study or a check may state.
 
 use files::suggestion;
-use rocking_wall::scene::GROUPS;
 use rocking_wall::wall::Bar;
+use scene::GROUPS;
 
 /// Groups of parameters that a wall of a study may state.
 pub(crate) const WALL_GROUPS: [&str; 6] = ["geometry", "force_law", "damping", "impact", "tie", "solver"];

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use files::{FileError, read_text};
 use ground_motion::columns::{Columns, Fault, Name, Numbers, Thousands};
-use rocking_wall::scene::{Curve, KINEMATICS, Scene, SceneError};
+use scene::{Curve, KINEMATICS, Scene, SceneError};
 
 use crate::named_wall::NamedWall;
 use crate::wall_columns::{choice, column, key_of_check};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use files::{FileError, TomlFile};
-use rocking_wall::scene::{Document, Scene, apply_tables, read_floors, to_toml};
 use rocking_wall::wall::{COMPUTED, Parameters, Ratio};
+use scene::{Document, Scene, apply_tables, read_floors, to_toml};
 
 use crate::named_wall::NamedWall;
 use crate::wall_parameters::{WALL_GROUPS, is_of_models};

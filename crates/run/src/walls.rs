@@ -4,11 +4,11 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use files::{Described, FileError, Schema, Tables, TomlFile, names, object, suggestion, tables};
-use rocking_wall::scene::{
+use rocking_wall::wall::{Bar, OF_RECTANGLE, Parameters};
+use scene::{
     BODIES, Curve, Floors, GROUPS, Group, Scene, SceneError, StoreyTable, SupportsTable, TieTables,
     apply_tables, parameters, read_floors,
 };
-use rocking_wall::wall::{Bar, OF_RECTANGLE, Parameters};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use fmu_export_build::archive::ArchiveError;
 use fmu_export_build::{Fault, ReductionError};
-use rocking_wall::scene::SceneError;
 use rocking_wall::wall::ParameterError;
+use scene::SceneError;
 
 /// Why there is no FMU of a scene.
 #[derive(Debug, thiserror::Error)]

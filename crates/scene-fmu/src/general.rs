@@ -5,7 +5,6 @@ use std::path::Path;
 use fmu_export_build::archive::Archive;
 use fmu_export_build::sources::Sources;
 use fmu_export_build::{Description, Reduction, ReductionError};
-use rocking_wall::scene;
 
 use super::error::SceneFmuError;
 use super::page;

@@ -11,10 +11,10 @@ use std::borrow::Cow;
 use fmu_export_build::archive::Archive;
 use fmu_export_build::{DefaultExperiment, Reduction};
 use ground_motion::GroundMotion;
-use rocking_wall::scene::{self, GROUPS, Scene};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::unit::UnitScene;
 use rocking_wall::wall::{Parameters, Support, Wall};
+use scene::{self, GROUPS, Scene};
 
 pub use error::SceneFmuError;
 pub use general::General;

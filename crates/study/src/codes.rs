@@ -1,7 +1,7 @@
 //! What a study asks of building codes. A study knows none: the crate that does answers.
 
 use files::{FileError, TomlFile};
-use rocking_wall::scene::SceneError;
+use scene::SceneError;
 
 /// Answers what a study asks of its table `[check]`.
 pub trait Codes {

@@ -6,12 +6,12 @@ use files::{FileError, Place, read_text};
 use fragility::{FEWEST_RECORDS, Weights};
 use ground_motion::GroundMotionError;
 use report::counted;
-use rocking_wall::scene::SceneError;
 use rocking_wall::wall::{Parameters, Usual, Wall, Warning};
 use run::model::Model;
 use run::records::{NamedRecord, all_records, copies, inputs as record_inputs, record_files};
 use run::wall_text::{wall_of_text, wall_text};
 use run::walls::{NamedWall, assumed, check_unique, defaults, walls};
+use scene::SceneError;
 
 use crate::codes::Codes;
 use crate::document::{CompareEntry, ReportOptions, StudyFile, WallClass};

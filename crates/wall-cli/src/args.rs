@@ -12,10 +12,10 @@ use ground_motion::{
     Acceleration, Format, GroundMotion, MAX_FILE_BYTES, Record, RecordOptions, SyntheticMotion, Warning,
     parse, parse_channels, read,
 };
-use rocking_wall::scene::{Scene, set_names};
 use rocking_wall::simulation::Excitation;
 use run::record_facts;
 use run::records::folder_files;
+use scene::{Scene, set_names};
 
 use crate::output::Console;
 

@@ -179,7 +179,7 @@ fn every_crate_has_what_a_registry_shows() {
 }
 
 /// What each crate may know of the others.
-const KNOWN: [(&str, &str); 23] = [
+const KNOWN: [(&str, &str); 24] = [
     ("fmu-export", ""),
     ("fmu-component", "fmu-export"),
     ("fmu-export-build", "fmu-export"),
@@ -189,52 +189,53 @@ const KNOWN: [(&str, &str); 23] = [
     ("rocking-files", "ground-motion"),
     ("rocking-floor", "fmu-export rocking-oscillator"),
     ("rocking-floor-fmu", "fmu-component fmu-export rocking-floor"),
-    ("rocking-wall", "fmu-export ground-motion rocking-files rocking-oscillator"),
+    ("rocking-wall", "fmu-export ground-motion rocking-oscillator"),
     ("rocking-wall-fmu", "fmu-component fmu-export rocking-wall"),
+    ("rocking-scene", "fmu-export ground-motion rocking-files rocking-wall"),
     ("rocking-record", "rocking-oscillator rocking-wall"),
-    ("rocking-run", "ground-motion rocking-files rocking-record rocking-report rocking-wall"),
-    (
-        "rocking-check",
-        "fmu-export ground-motion rocking-files rocking-record rocking-report rocking-run rocking-wall",
-    ),
+    ("rocking-run", "ground-motion rocking-files rocking-record rocking-report rocking-scene rocking-wall"),
     ("rocking-fragility", "rocking-files rocking-report rocking-run"),
     (
+        "rocking-check",
+        "ground-motion rocking-files rocking-record rocking-report rocking-run rocking-scene rocking-wall",
+    ),
+    (
         "rocking-study",
-        "fmu-export ground-motion rocking-files rocking-fragility rocking-record rocking-report rocking-run \
-         rocking-wall",
+        "fmu-export ground-motion rocking-files rocking-fragility rocking-record rocking-report \
+         rocking-run rocking-scene rocking-wall",
     ),
     (
         "rocking-reliability",
         "ground-motion rocking-check rocking-files rocking-fragility rocking-report rocking-run \
-         rocking-study rocking-wall",
+         rocking-scene rocking-study rocking-wall",
     ),
-    ("rocking-scene-fmu", "fmu-export-build ground-motion rocking-wall"),
+    ("rocking-scene-fmu", "fmu-export-build ground-motion rocking-scene rocking-wall"),
     (
         "rocking-building",
         "fmu-export fmu-export-build ground-motion rocking-files rocking-floor rocking-report rocking-run \
-         rocking-scene-fmu rocking-wall",
+         rocking-scene rocking-scene-fmu rocking-wall",
     ),
     (
         "rocking-evidence",
-        "fmu-export ground-motion rocking-check rocking-files rocking-fragility rocking-record \
-         rocking-report rocking-run rocking-study rocking-wall",
+        "ground-motion rocking-check rocking-files rocking-fragility rocking-record rocking-report \
+         rocking-run rocking-scene rocking-study rocking-wall",
     ),
     (
         "rocking-playground",
-        "fmu-export ground-motion rocking-check rocking-fragility rocking-report rocking-run rocking-study \
-         rocking-wall",
+        "fmu-export ground-motion rocking-check rocking-fragility rocking-report rocking-run \
+         rocking-scene rocking-study rocking-wall",
     ),
     (
         "rocking-wall-python",
         "fmu-export ground-motion rocking-building rocking-check rocking-evidence rocking-files \
-         rocking-record rocking-reliability rocking-report rocking-run rocking-scene-fmu \
+         rocking-record rocking-reliability rocking-report rocking-run rocking-scene rocking-scene-fmu \
          rocking-study rocking-wall",
     ),
     (
         "rocking-wall-cli",
-        "fmu-export fmu-export-build ground-motion rocking-building rocking-check rocking-evidence \
-         rocking-files rocking-floor rocking-reliability rocking-report rocking-run rocking-scene-fmu \
-         rocking-study rocking-wall",
+        "fmu-export-build ground-motion rocking-building rocking-check rocking-evidence rocking-files \
+         rocking-reliability rocking-report rocking-run rocking-scene rocking-scene-fmu rocking-study \
+         rocking-wall",
     ),
 ];
 

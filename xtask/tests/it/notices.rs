@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::{cargo, read};
 
 /// Crates that programs above the unit link, and the unit must not.
-const ABOVE_THE_UNIT: [&str; 14] = [
+const ABOVE_THE_UNIT: [&str; 17] = [
     "argmin",
     "clap",
     "fearless_simd",
@@ -17,9 +17,12 @@ const ABOVE_THE_UNIT: [&str; 14] = [
     "rocking-fragility",
     "rocking-record",
     "rocking-reliability",
+    "rocking-files",
     "rocking-run",
+    "rocking-scene",
     "rocking-study",
     "serde_json",
+    "toml",
 ];
 
 /// The crates that a package links: those of this workspace, and others.

@@ -4,8 +4,8 @@ use crate::document::Support;
 use crate::{Building, Coupled, Parts, table};
 use report::escaped;
 use report::palette::{DARK_GREY, RED, SERIES};
-use rocking_wall::response::Fate;
 use run::figure::{cut, histories};
+use scene::response::Fate;
 use serde_json::json;
 
 use report::moving::{Moving, factors, frames, page, plot, rounded, verdict};

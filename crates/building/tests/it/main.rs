@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 
 use building::{Building, Coupled, Parts, Settings, table};
 use ground_motion::{GroundMotion, Storey, Storeys, SyntheticMotion};
-use rocking_wall::response::Response;
-use rocking_wall::scene::{Floors, Scene, StoreyTable, SupportsTable};
 use rocking_wall::simulation::Excitation;
+use scene::response::Response;
+use scene::{Floors, Scene, StoreyTable, SupportsTable};
 
 #[path = "../../../../tests/it/broken.rs"]
 mod broken;

@@ -1,7 +1,7 @@
 //! A wall and its records at the level of shaking of a limit state of a check.
 
 use ground_motion::GroundMotion;
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use super::{Code, Subject};
 use crate::error::CheckError;

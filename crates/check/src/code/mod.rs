@@ -28,8 +28,8 @@ pub(crate) mod verdict;
 
 use std::fmt;
 
-use rocking_wall::scene::{Floors, Scene};
 use rocking_wall::wall::Parameters;
+use scene::{Floors, Scene};
 
 use crate::code::sought::Sought;
 use crate::error::CheckError;

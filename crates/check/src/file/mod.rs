@@ -7,10 +7,10 @@ pub(crate) mod site;
 use std::path::{Path, PathBuf};
 
 use files::{Described, Fault, FileError, TomlFile, read_text};
-use rocking_wall::scene::{OF_BODY, Scene, SceneError};
 use rocking_wall::wall::OF_RECTANGLE;
 use run::records::{NamedRecord, RecordsTable, copies};
 use run::walls::{NamedWall, assumed, read_walls};
+use scene::{OF_BODY, Scene, SceneError};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use files::Place;
 use ground_motion::GroundMotion;
-use rocking_wall::scene::{DEFAULT_TAIL, Floors};
 use rocking_wall::wall::Body;
 use run::records::{NamedRecord, RecordsTable, all_records, inputs, record_files, records};
 use run::shaking::felt;
+use scene::{DEFAULT_TAIL, Floors};
 use toml::Spanned;
 
 use crate::error::CheckError;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use rocking_wall::scene::{Floors, SceneError};
 use rocking_wall::wall::Body;
+use scene::{Floors, SceneError};
 
 use super::ground::{GroundSpectrum, damping_factor};
 

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use ::report::escaped;
 use ::report::page::Page;
-use rocking_wall::scene::fingerprint;
+use scene::fingerprint;
 
 use crate::code::verdict::{Section, Verdict};
 use crate::error::CheckError;

@@ -1,9 +1,9 @@
 //! The parameters of the wall of a report, with where they come from.
 
 use ::report::escaped;
-use rocking_wall::scene::{GROUPS, parameter_text, variable};
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::{Bar, BarNumber, Damping, Parameters, Wall, is_computable, usage};
+use scene::{GROUPS, parameter_text, variable};
 
 use super::origin::Origin;
 use crate::words::formulas::formula;

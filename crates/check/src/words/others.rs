@@ -1,9 +1,9 @@
 //! The Italian of what the crates below say in English: parameters, their choices, and warnings of a wall.
 
 use ::report::number;
-use rocking_wall::scene::{Floors, HeavyWall, LIGHT};
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, Warning};
+use scene::{Floors, HeavyWall, LIGHT};
 
 use super::{Language, Sentence, say};
 
@@ -39,7 +39,7 @@ pub(crate) fn improbable(warning: &Warning) -> Sentence {
     let usual = format!(" = {value}{unit} è insolito: è usuale da {least} a {most}{unit}; {remedy}");
     let told = Sentence::new(&*english, format!("{name}{usual}"));
     // a page has no names of parameters
-    let Some(variable) = rocking_wall::scene::variable(key) else { return told };
+    let Some(variable) = scene::variable(key) else { return told };
     let described = described(variable.description, key);
     let page =
         Sentence::new(english.replacen(key, &described, 1), format!("{}{usual}", described.of(Language::It)));
@@ -189,9 +189,9 @@ pub(crate) fn choice(name: &str) -> Sentence {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rocking_wall::scene::{GROUPS, variable};
     use rocking_wall::variables::DampingModel;
     use rocking_wall::wall::Bar;
+    use scene::{GROUPS, variable};
 
     #[test]
     fn each_parameter_has_its_italian() {

@@ -10,7 +10,7 @@ use check::circolare::{
     damping_factor,
 };
 use check::{CheckError, CheckFile, Subject};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 const DIGITS: f64 = 1e-5;
 

@@ -123,7 +123,7 @@ fn levels(outcome: &Value) -> &[Value] {
 }
 
 pub(crate) fn json(text: &str) -> Value {
-    use rocking_wall::scene::Scene;
+    use scene::Scene;
     let scene = Scene::parse("scene.toml", text, ".".as_ref()).unwrap();
     let code = check::read(&check::CheckFile::parse("scene.toml", text).unwrap()).unwrap();
     code.check((&scene).into()).unwrap_or_else(|error| panic!("{error}\n{text}")).json()
@@ -383,7 +383,7 @@ fn bodies_that_cannot_be_checked_are_refused() {
 
 /// The message of a scene that is refused as it is read, or checked.
 fn read_or_check(text: &str) -> String {
-    use rocking_wall::scene::Scene;
+    use scene::Scene;
     match Scene::parse("scene.toml", text, ".".as_ref()) {
         Err(error) => error.to_string(),
         Ok(_) => checked(text).map(|outcome: Outcome| outcome.governs).expect_err(text),

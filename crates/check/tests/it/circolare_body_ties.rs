@@ -1,7 +1,7 @@
 //! Several ties of a façade in the check by Circolare 7/2019, its drawing, and the loads that it bears.
 
 use check::{CheckFile, Found, Language, Sought, WallCodes, check_walls, find, read};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 use serde_json::Value;
 
 use crate::circolare::refuses;

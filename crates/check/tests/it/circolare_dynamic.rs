@@ -4,8 +4,8 @@
 use check::circolare::{Outcome, Statement};
 use check::{CheckFile, Subject};
 use ground_motion::GroundMotion;
-use rocking_wall::scene::Scene;
 use run::records::NamedRecord;
+use scene::Scene;
 
 use crate::circolare::{PARAPET, checked, near};
 

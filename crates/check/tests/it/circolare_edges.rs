@@ -5,7 +5,7 @@ use check::circolare::{
     FloorSpectrum, GroundSpectrum, Hazard, Mode, Outcome, Soil, TieState, damping_factor,
 };
 use check::{CheckFile, Deciding, read};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::circolare::{PARAPET, checked, near};
 use crate::circolare_hinges::{displaced, facade, negative, parapet, positive, strip};

@@ -2,7 +2,7 @@
 //! assignments on the command line.
 
 use check::{CheckFile, Language, Subject, WallCodes, check_walls, read, with_assignments};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
 use crate::circolare_hinges::{facade, palazzo, positive, strip};

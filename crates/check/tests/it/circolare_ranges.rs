@@ -1,7 +1,7 @@
 //! Values outside the ranges of the code, sizes that cannot be, and the ground of a building.
 
 use check::{CheckFile, Language, Sought, find, read};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
 use crate::circolare_hinges::{facade, positive};

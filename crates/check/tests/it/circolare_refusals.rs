@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use check::{CheckFile, read};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::circolare::{PARAPET, checked, refuses};
 use crate::circolare_bodies::facade;

@@ -1,7 +1,7 @@
 //! From which ratio on a check passes, and which limit states SLD raises.
 
 use check::{CheckFile, Language, Sought, Subject, find, read};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::circolare::checked;
 use crate::circolare_hinges::{displaced, facade, negative, positive, strip};

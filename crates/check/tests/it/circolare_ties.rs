@@ -4,7 +4,7 @@
 
 use check::circolare::SideVerdict;
 use check::{CheckFile, Found, Language, Sought, find, read};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::circolare::{PARAPET, checked, near, refuses, warns};
 use crate::circolare_hinges::{displaced, facade, near_all, negative, parapet, positive, strip};

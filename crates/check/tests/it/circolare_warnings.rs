@@ -2,7 +2,7 @@
 //! searches that find nothing.
 
 use check::{CheckFile, Found, Language, Sought, find, read};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::circolare::{PARAPET, checked, refuses, warns};
 use crate::circolare_hinges::{facade, strip};

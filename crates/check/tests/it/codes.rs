@@ -3,8 +3,8 @@
 use check::{
     CODES, CheckFile, Ends, Language, Origin, ReportTable, Sought, WallCodes, check_walls, find, page, read,
 };
-use rocking_wall::scene::Scene;
 use run::walls::NamedWall;
+use scene::Scene;
 
 fn source(name: &str) -> String {
     std::fs::read_to_string(format!("{}/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()

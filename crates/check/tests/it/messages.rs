@@ -2,7 +2,7 @@
 //! words.
 
 use check::{CODES, CheckFile, read};
-use rocking_wall::scene::SceneError;
+use scene::SceneError;
 
 use crate::broken::walk;
 

@@ -2,8 +2,8 @@
 //! said, and nothing in English.
 
 use check::{CheckFile, Language, Origin, WallCodes, check_walls, page, page_of_walls, read};
-use rocking_wall::scene::Scene;
 use run::walls::NamedWall;
+use scene::Scene;
 
 use crate::circolare::PARAPET;
 use crate::circolare_hinges::palazzo;

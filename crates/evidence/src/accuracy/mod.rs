@@ -7,7 +7,7 @@
 //! ```
 //! use evidence::accuracy::{Problem, Setting, measure_at};
 //!
-//! let scene = rocking_wall::scene::Scene { stop_time: 2.0, ..Default::default() };
+//! let scene = scene::Scene { stop_time: 2.0, ..Default::default() };
 //! let problem = Problem::from_scene(&scene)?;
 //! let result = measure_at(&problem, &[Setting::Newmark(1), Setting::Newmark(10)], 0.0)?;
 //! assert!(result.measurements[1].error_max < result.measurements[0].error_max);

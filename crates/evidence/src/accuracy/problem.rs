@@ -1,9 +1,9 @@
 //! Problems on which solvers are measured.
 
 use ground_motion::{GroundMotion, GroundMotionError, SyntheticMotion};
-use rocking_wall::scene::Scene;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
+use scene::Scene;
 
 use crate::EvidenceError;
 

@@ -1,10 +1,10 @@
 //! Figures as data, and what several of them need.
 
 use report::plot::Plot;
-use rocking_wall::response::{Response, Sample};
-use rocking_wall::scene::{Scene, SceneError};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::Parameters;
+use scene::response::{Response, Sample};
+use scene::{Scene, SceneError};
 
 /// A figure of the paper, computed.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
 use report::plot::{Axis, Plot, Series};
-use rocking_wall::response::Sample;
 use rocking_wall::variables::{DampingModel, ForceLaw, Mechanism};
 use rocking_wall::wall::restitution::{analytic_parapet, analytic_vertical_spanning};
 use rocking_wall::wall::{ParameterError, Parameters, Wall, equivalence};
 use run::free_motion::{with_damping, with_restitution};
 use run::model::{RATIO_MODELS as MODELS, color, label};
+use scene::response::Sample;
 use study::calibration::{Grid, calibrate};
 
 use super::PaperTable;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 use files::{FileError, TomlFile, read_text, tables};
-use rocking_wall::scene::{Group, apply_group, check_limits, variable};
 use rocking_wall::wall::Parameters;
+use scene::{Group, apply_group, check_limits, variable};
 
 use super::decay::Decay;
 use super::push::Push;

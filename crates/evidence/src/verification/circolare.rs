@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use super::given::{SIX_DIGITS, within};
 use crate::{Comparison, EvidenceError};

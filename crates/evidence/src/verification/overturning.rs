@@ -8,12 +8,12 @@
 use std::f64::consts::PI;
 
 use ground_motion::{Pulse, Shape};
-use rocking_wall::scene::SceneError;
 use rocking_wall::simulation::{Excitation, RunError, Simulation, segment_of};
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact};
 use rocking_wall::wall::{Parameters, Support};
 use run::bisection::first_true;
+use scene::SceneError;
 use study::spectrum::{PulseForm, over_pulses};
 
 use super::given::{Comparisons, within};

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use ground_motion::{GroundMotion, GroundMotionError};
-use rocking_wall::response::{COLUMNS, Sample};
-use rocking_wall::scene::{Scene, SceneError, variable};
 use rocking_wall::simulation::{Excitation, Simulation, segment_of};
 use rocking_wall::wall::{Branch, Support};
+use scene::response::{COLUMNS, Sample};
+use scene::{Scene, SceneError, variable};
 use serde::Deserialize;
 
 use crate::{Comparison, EvidenceError};

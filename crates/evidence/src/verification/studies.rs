@@ -6,10 +6,10 @@ use check::fractions::{Demand, Fractions, check};
 use fragility::hazard::HazardCurve;
 use fragility::{FragilityFunction, Lognormal, Sample, fit};
 use ground_motion::{GroundMotion, Spectrum, Storey, Storeys, spectrum::AVERAGE_PERIODS};
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::variables::{ForceLaw, Mechanism};
 use rocking_wall::wall::{Parameters, Wall, equivalence};
+use scene::Scene;
+use scene::response::Response;
 use study::ida::Exceedance;
 
 use super::given::{Comparisons, SIX_DIGITS, within};

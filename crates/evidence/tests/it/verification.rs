@@ -2,7 +2,7 @@
 
 use evidence::Comparison;
 use evidence::verification::verify;
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::root;
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use rocking_wall::scene::Scene;
 use rocking_wall::wall::Wall;
+use scene::Scene;
 
 use super::{Shape, svg};
 

@@ -2,10 +2,10 @@
 
 use report::moving::{Moving, factors, frames, page, plot, rounded, verdict};
 use report::{escaped, number};
-use rocking_wall::response::{Fate, Response, Sample};
-use rocking_wall::scene::Scene;
 use rocking_wall::variables::Impact;
 use rocking_wall::wall::{Parameters, Sides, Wall, usage};
+use scene::Scene;
+use scene::response::{Fate, Response, Sample};
 
 use crate::counterpart::Counterpart;
 use crate::{demands, figure as plots};

@@ -1,8 +1,8 @@
 //! Tests of the page without a browser.
 
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::wall::Wall;
+use scene::Scene;
+use scene::response::Response;
 
 use super::render;
 use crate::figure::{WIDTH, cut, history};

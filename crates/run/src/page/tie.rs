@@ -4,9 +4,9 @@ use report::moving::{plot, rounded};
 use report::number;
 use report::palette::{AMBER, BLUE, SERIES};
 use report::plot::Plot;
-use rocking_wall::response::{Response, Sample, TieSample};
 use rocking_wall::solver::{TieDemands, Yielding};
 use rocking_wall::wall::{Parameters, Tie, TiePart, Wall};
+use scene::response::{Response, Sample, TieSample};
 use serde_json::{Value, json};
 
 use crate::figure::histories;

@@ -9,7 +9,7 @@ use crate::codes::Codes;
 use crate::ida::{IntensityMeasure, Study};
 use crate::measures::{Compared, Events};
 use files::{FileError, Place, TomlFile, read_text, suggestion};
-use rocking_wall::scene::SceneError;
+use scene::SceneError;
 
 use super::levels::{IntensityTable, MEASURES, of_code, without_periods};
 

@@ -7,8 +7,8 @@ use toml::Spanned;
 use crate::codes::Codes;
 use crate::ida::{IntensityMeasure, Levels, ToSi};
 use files::{FileError, Place, TomlFile, tables};
-use rocking_wall::scene::SceneError;
 use run::records::Selection;
+use scene::SceneError;
 
 /// Names of the intensity measures.
 pub(super) const MEASURES: [&str; 9] =

@@ -13,7 +13,7 @@
 //! walls = [{ name = "1", geometry = { height = 3, thickness = 0.3 } }]
 //! "#;
 //! assert_eq!(StudyFile::parse("study.toml", text, &NoCodes)?.models[1].name, "CDC");
-//! # Ok::<(), rocking_wall::scene::SceneError>(())
+//! # Ok::<(), scene::SceneError>(())
 //! ```
 
 mod compare;
@@ -25,10 +25,10 @@ mod report;
 mod uncertain;
 
 use files::{Schema, TomlFile, file_schema, names, tables, with};
-use rocking_wall::scene::{DEFAULT_TAIL, SceneError, StoreyTable, SupportsTable};
 use run::model::Model;
 use run::records::{RecordsEntry, RecordsTable, records};
 use run::walls::{WallEntry, WallTable, entries};
+use scene::{DEFAULT_TAIL, SceneError, StoreyTable, SupportsTable};
 use serde::de::IgnoredAny;
 use toml::{Spanned, Value};
 

@@ -4,10 +4,10 @@ use toml::{Spanned, Value};
 
 use files::{FileError, Place, Schema, object, one_of, suggestion, text, with};
 use fmu_export::VariableId;
-use rocking_wall::scene::{check_limits, parameters};
 use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::{COMPUTED, Damping, Ratio};
 use run::model::{EnergyLoss, Model, damping_models, label};
+use scene::{check_limits, parameters};
 
 /// Keys of a model that is a table.
 const KEYS: [&str; 4] = ["name", "model", "xi", "c_bar"];

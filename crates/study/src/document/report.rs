@@ -11,8 +11,8 @@ use crate::uncertain::Samples;
 
 use files::{FileError, Place, fraction, positive, suggestion, tables};
 use report::counted;
-use rocking_wall::scene::DEFAULT_THRESHOLDS;
 use run::model::Model;
+use scene::DEFAULT_THRESHOLDS;
 
 /// Resamples of a bootstrap that states none.
 const RESAMPLES: u32 = 1000;

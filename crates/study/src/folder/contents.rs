@@ -5,8 +5,8 @@ use std::ops::Range;
 use crate::document::ReportOptions;
 use crate::ida::{Case, Collapse, IntensityMeasure, IntensityUnit, Layout, Polarity, Scaled, Study};
 use crate::results::Fitting;
-use rocking_wall::scene::fingerprint;
 use run::wall_text::wall_text;
+use scene::fingerprint;
 use serde::{Deserialize, Serialize};
 
 /// What the runs of a study depend on.

@@ -1,9 +1,9 @@
 //! Errors of an incremental dynamic analysis.
 
 use ground_motion::GroundMotionError;
-use rocking_wall::scene::SceneError;
 use rocking_wall::solver::SolverError;
 use rocking_wall::wall::ParameterError;
+use scene::SceneError;
 
 /// Why a study cannot be run.
 #[derive(Debug, thiserror::Error)]

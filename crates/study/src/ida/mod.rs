@@ -36,7 +36,6 @@ mod unit;
 use std::borrow::Cow;
 
 use ground_motion::{GroundMotion, Warning};
-pub use rocking_wall::scene::DEFAULT_TAIL;
 use rocking_wall::solver::{Motion, SolverError};
 use rocking_wall::wall::Wall;
 use run::model::Model;
@@ -44,6 +43,7 @@ use run::parallel;
 use run::records::NamedRecord;
 use run::shaking::felt;
 use run::walls::NamedWall;
+pub use scene::DEFAULT_TAIL;
 
 pub use error::IdaError;
 pub use fragility::{Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};

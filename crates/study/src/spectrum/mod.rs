@@ -35,10 +35,10 @@ use fmu_export::VariableId;
 use ground_motion::GroundMotion;
 use record::{Forcing, Outcome, RecordSolver, RunEnd, RunStart};
 use report::table::Table;
-use rocking_wall::scene::{Scene, SceneError, check_limits};
 use rocking_wall::solver::{Memo, Motion, Peaks, SolverError};
 use rocking_wall::variables::{Mechanism, RealVariable};
 use rocking_wall::wall::{Parameters, Wall};
+use scene::{Scene, SceneError, check_limits};
 
 use run::free_motion::{advance, peak_is_final};
 use run::parallel;

@@ -3,7 +3,7 @@
 //!
 //! ```
 //! use ground_motion::SyntheticMotion;
-//! use rocking_wall::scene::Scene;
+//! use scene::Scene;
 //! use study::tie::{STIFFNESS, TieStudy};
 //!
 //! let mut scene = Scene::default();
@@ -19,12 +19,12 @@ pub mod figure;
 mod table;
 
 use ground_motion::{GroundMotion, GroundMotionError};
-use rocking_wall::response::{Fate, Response};
-use rocking_wall::scene::{DEFAULT_TAIL, Scene, SceneError};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::solver::{TieDemands, Yielding};
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::{ParameterError, Parameters, Tie, Wall};
+use scene::response::{Fate, Response};
+use scene::{DEFAULT_TAIL, Scene, SceneError};
 
 use run::parallel;
 use run::polarity::Polarities;

@@ -1,8 +1,8 @@
 //! The outcomes of ties as a table, over what is varied.
 
 use report::table::{Column, Digits, Table};
-use rocking_wall::response::Fate;
 use rocking_wall::wall::Parameters;
+use scene::response::Fate;
 
 use super::{Outcome, Row, TieStudy};
 

@@ -16,8 +16,8 @@ mod distribution;
 mod hypercube;
 mod sensitivity;
 
-use rocking_wall::scene::{Scene, SceneError, is_of_oscillator};
 use run::walls::NamedWall;
+use scene::{Scene, SceneError, is_of_oscillator};
 use serde::{Deserialize, Serialize};
 
 pub use distribution::{Distribution, Shape, range};

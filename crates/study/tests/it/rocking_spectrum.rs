@@ -3,11 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use ground_motion::{GroundMotion, SyntheticMotion};
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Wall};
+use scene::Scene;
+use scene::response::Response;
 use study::spectrum::{
     PulseForm, RecordPulse, RecordPulses, RockingSpectrum, Size, Slenderness, SpectrumError, onset,
     over_pulses, over_walls,

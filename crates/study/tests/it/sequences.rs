@@ -6,13 +6,13 @@ use std::sync::Once;
 
 use fragility::{Sample, fit};
 use ground_motion::{GroundMotion, SyntheticMotion};
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::Parameters;
 use run::model::{EnergyLoss, Model};
 use run::records::NamedRecord;
 use run::walls::NamedWall;
+use scene::Scene;
+use scene::response::Response;
 use study::codes::NoCodes;
 use study::ida::{Case, Crossing, IntensityMeasure, Levels, Run, Scaled, Study};
 use study::loaded::LoadedStudy;
@@ -92,7 +92,7 @@ fn the_last_shock_goes_on_from_the_others() {
             alike(run.demand, second.u_ratio_max);
             let before = curve.before().unwrap();
             alike(before.demand, first.u_ratio_max);
-            let yielding = |shock: &rocking_wall::response::Shock| shock.demands.ties[0].yielding.unwrap();
+            let yielding = |shock: &scene::response::Shock| shock.demands.ties[0].yielding.unwrap();
             assert_eq!(before.tie.unwrap().broken, yielding(first).breaks[0].is_some());
             if second.overturned {
                 continue;

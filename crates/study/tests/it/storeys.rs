@@ -3,9 +3,9 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use rocking_wall::response::Response;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
+use scene::Scene;
+use scene::response::Response;
 use study::codes::NoCodes;
 use study::document::StudyFile;
 use study::ida::Study;

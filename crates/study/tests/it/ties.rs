@@ -1,7 +1,6 @@
 //! Ties that yield and break, in incremental dynamic analyses and in studies of ties.
 
 use ground_motion::SyntheticMotion;
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::Segment;
 use rocking_wall::variables::{DampingModel, TieSide};
@@ -9,6 +8,7 @@ use rocking_wall::wall::{Parameters, Support};
 use run::model::Model;
 use run::records::NamedRecord;
 use run::walls::NamedWall;
+use scene::Scene;
 use study::ida::{IntensityMeasure, Levels, Study, TieDemand};
 use study::tie::{ALL, BAR_DIAMETER, HEIGHT, SLACK, STIFFNESS, STRENGTH, TieStudy, ULTIMATE, Varied, table};
 

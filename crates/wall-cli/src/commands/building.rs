@@ -14,8 +14,8 @@ use building::{Building, Parts, table};
 use clap::Args;
 use ground_motion::GroundMotion;
 use report::counted;
-use rocking_wall::scene::DEFAULT_TAIL;
 use run::file::make_folder;
+use scene::DEFAULT_TAIL;
 
 use crate::args::RecordArguments;
 use crate::output::{self, Console};

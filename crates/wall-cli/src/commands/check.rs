@@ -8,8 +8,8 @@ use check::{
     baselines, check_walls, find, how_to_write, page, page_of_walls, read, with_assignments,
 };
 use clap::Args;
-use rocking_wall::scene::Scene;
 use run::parallel;
+use scene::Scene;
 use study::document::StudyFile;
 
 use crate::args::{SceneArguments, apply_set, refuse, svg_file};

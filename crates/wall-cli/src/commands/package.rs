@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Args;
-use rocking_wall::scene::Scene;
+use scene::Scene;
 use scene_fmu::{General, of_scene};
 
 use crate::args::warn_of_motion;

@@ -4,7 +4,7 @@ use anyhow::Result;
 use building::Building;
 use clap::{Args, ValueEnum};
 use files::{Schema, file_schema};
-use rocking_wall::scene::Document;
+use scene::Document;
 use study::document::StudyFile;
 
 use crate::output::Console;

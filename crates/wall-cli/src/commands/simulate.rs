@@ -4,8 +4,8 @@ mod arguments;
 mod records;
 
 use anyhow::Result;
-use rocking_wall::response::Response;
 use rocking_wall::wall::{Parameters, Wall};
+use scene::response::Response;
 
 use run::demands;
 

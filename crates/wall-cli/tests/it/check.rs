@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use ground_motion::{Spectrum, SyntheticMotion};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::command_line::{
     assert_has, content, fails, folder, json, printed, refused, setting, succeed, text, wall,

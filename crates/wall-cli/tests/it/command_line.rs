@@ -379,7 +379,7 @@ fn machine_readable_output() {
 /// A scene written by `to_toml` into an FMU is read back unchanged.
 #[test]
 fn a_scene_survives_being_written() {
-    use rocking_wall::scene::{Scene, to_toml};
+    use scene::{Scene, to_toml};
     for name in ["plain_parapet", "strip_between_floors", "quadrilinear_strip"] {
         let path = crate::root().join(format!("scenes/{name}.toml"));
         let mut scene = Scene::read(&path).unwrap();

@@ -160,7 +160,7 @@ fn damaged_files_are_computed_again() {
         content[at..at + 8].copy_from_slice(&bad.to_le_bytes());
         let checksum = content.windows(9).rposition(|bytes| bytes == b"checksum ").unwrap() + 9;
         content[checksum..checksum + 32].fill(b'0');
-        let own = rocking_wall::scene::fingerprint(&content);
+        let own = scene::fingerprint(&content);
         content[checksum..checksum + 32].copy_from_slice(own.as_bytes());
         fs::write(file, content).unwrap();
     }

@@ -3,11 +3,11 @@
 use std::fs;
 
 use ground_motion::SyntheticMotion;
-use rocking_wall::response::{Fate, Response};
-use rocking_wall::scene::Scene;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::TieSide;
 use rocking_wall::wall::Parameters;
+use scene::Scene;
+use scene::response::{Fate, Response};
 use serde_json::Value;
 
 use crate::command_line::{

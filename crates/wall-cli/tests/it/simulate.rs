@@ -4,7 +4,7 @@ use std::fs;
 
 use ground_motion::SyntheticMotion;
 use rocking_wall::choices::Mechanism;
-use rocking_wall::scene::{Floors, StoreyTable, SupportsTable};
+use scene::{Floors, StoreyTable, SupportsTable};
 
 use crate::command_line::{
     args, assert_has, content, fails, folder, json, printed, refused, rows, setting, succeed, text,

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use rocking_wall::scene::GROUPS;
 use rocking_wall::variables::DampingModel;
 use rocking_wall::wall::{Parameters, Ratio, Wall, usage};
+use scene::GROUPS;
 
 use crate::command_line::{assert_has, content, fails, folder, json, printed, setting, succeed, text};
 

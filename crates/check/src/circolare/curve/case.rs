@@ -2,9 +2,9 @@
 
 use std::borrow::Cow;
 
-use rocking_wall::scene::Floors;
 use rocking_wall::variables::{ForceLaw, Mechanism, Rocking, Softening, TieSide};
 use rocking_wall::wall::{Body, Kinematics, Parameters, Statics};
+use scene::Floors;
 
 use super::{level, sizes};
 use crate::circolare::statement::Statement;

@@ -8,8 +8,8 @@ pub(crate) mod warnings;
 
 use std::borrow::Cow;
 
-use rocking_wall::scene::Floors;
 use rocking_wall::wall::{Parameters, Wall};
+use scene::Floors;
 use serde::Serialize;
 
 use super::checks::sides::{SideVerdict, SideVerdicts};

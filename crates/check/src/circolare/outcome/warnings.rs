@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use rocking_wall::scene::Floors;
 use rocking_wall::variables::Mechanism;
 use rocking_wall::wall::{Parameters, Wall};
+use scene::Floors;
 
 use super::{Checked, loads, ranges, turns};
 use crate::circolare::checks::DisplacementCheck;

@@ -6,10 +6,10 @@
 //! that reaches its strength fails. One that has it yields and breaks as in every run.
 
 use record::RecordSolver;
-use rocking_wall::scene::{DEFAULT_TAIL, Floors};
 use rocking_wall::solver::Motion;
 use rocking_wall::wall::{ParameterError, Parameters, Sides};
 use run::shaking::Shaking;
+use scene::{DEFAULT_TAIL, Floors};
 use serde::Serialize;
 
 use super::level::{has_storeys, scaled};

@@ -1,6 +1,6 @@
 //! Records at the level of shaking of a limit state.
 
-use rocking_wall::scene::Floors;
+use scene::Floors;
 
 use super::compatibility::{Compatibility, Ratios};
 use crate::circolare::checks::sides::SideVerdict;

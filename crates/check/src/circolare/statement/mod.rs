@@ -6,9 +6,9 @@ pub(crate) mod site;
 pub(crate) mod states;
 pub(crate) mod table;
 
-use rocking_wall::scene::Floors;
 use rocking_wall::wall::{ParameterError, Parameters, Usual, Warning};
 use run::records::motions;
+use scene::{BarTable, Floors};
 
 use crate::error::CheckError;
 use crate::file::CheckFile;
@@ -82,7 +82,7 @@ impl Statement {
         let mut table: CheckTable = file.table()?;
         let from_grid = site::fill(&mut table, file.folder())?;
         let mut statement = Self::new(table)?;
-        let bar = statement.table.tie.as_ref().and_then(|tie| tie.bar.as_ref());
+        let bar = statement.table.tie.as_ref().and_then(|tie| tie.bar);
         if bar.is_some() && file.states(&["tie", "bar"]) {
             let message = "the bar of the tie is stated in [tie] and in [check.tie]; leave one out";
             return Err(CheckError::value(&["tie", "bar"], message));
@@ -139,7 +139,7 @@ impl Statement {
             let message = format!("hinge_range = [{from}, {to}] must rise, within 0.01 to 0.99");
             return refused("hinge_range", message);
         }
-        if let Some(bar) = table.tie.as_ref().and_then(|tie| tie.bar) {
+        if let Some(BarTable(bar)) = table.tie.as_ref().and_then(|tie| tie.bar) {
             let named = |error: ParameterError| CheckError::value(&["tie", "bar"], error.to_string());
             bar.tie(1.0).map_err(named)?;
         }
@@ -202,7 +202,7 @@ impl Statement {
                            [[tie]], and leave that of [check.tie] out";
             return Err(CheckError::value(&["tie", "bar"], message));
         }
-        if let (Some(bar), None) = (bar, &parameters.bar) {
+        if let (Some(BarTable(bar)), None) = (bar, &parameters.bar) {
             parameters.bar = Some(bar);
             parameters.apply_bars()?;
         }

@@ -2,8 +2,9 @@
 
 use files::{choices, tables};
 use rocking_wall::variables::Rocking;
-use rocking_wall::wall::{Bar, Usual};
+use rocking_wall::wall::Usual;
 use run::records::RecordsTable;
+use scene::BarTable;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -136,7 +137,7 @@ tables! {
         #[key(default = "none")]
         pub at_activation: AtActivation,
         /// The bar, in place of `tie_stiffness`, `tie_strength` and `tie_ultimate`.
-        pub bar: Option<Bar>,
+        pub bar: Option<BarTable>,
         /// Where `ultimate_strain` of the bar comes from, for the report: a certificate, tests, a code.
         pub ultimate_strain_source: Option<String>,
     }

@@ -6,8 +6,8 @@ use anyhow::{Context, Error, Result, bail};
 use clap::Args;
 use files::check_value;
 use ground_motion::GroundMotion;
-use rocking_wall::scene::{DEFAULT_TAIL, Floors, MotionTable, Scene, StoreyTable, SupportsTable};
 use rocking_wall::simulation::Excitation;
+use scene::{DEFAULT_TAIL, Floors, MotionTable, Scene, StoreyTable, SupportsTable};
 
 use crate::args::{RecordArguments, SceneArguments, apply_set};
 use crate::output::Console;

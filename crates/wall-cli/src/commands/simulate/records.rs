@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use ground_motion::GroundMotion;
-use rocking_wall::response::Response;
 use rocking_wall::wall::Wall;
 use run::motions::{self, MotionRow};
 use run::parallel;
+use scene::response::Response;
 use serde_json::json;
 
 use super::arguments::Arguments;

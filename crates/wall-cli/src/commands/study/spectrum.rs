@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow, bail};
 use clap::Args;
 use ground_motion::GroundMotion;
-use rocking_wall::scene::{DEFAULT_TAIL, Scene};
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{DampingModel, Impact};
 use rocking_wall::wall::{COMPUTED, Damping, Parameters, Wall};
 use run::parallel;
+use scene::{DEFAULT_TAIL, Scene};
 use serde_json::json;
 use study::spectrum::figure::{Shown, own_words, svg};
 use study::spectrum::{

@@ -8,7 +8,7 @@ use evidence::accuracy::page::{Peers, page, picture, read_peers};
 use evidence::accuracy::table::{table, text};
 use evidence::accuracy::{Problem, defaults, measure};
 use evidence::reproduce::rotations::{self, Rotations};
-use rocking_wall::scene::Scene;
+use scene::Scene;
 
 use crate::args::{RecordArguments, svg_file};
 use crate::output::Console;

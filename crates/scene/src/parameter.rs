@@ -6,16 +6,16 @@ use files::{FileError, NUMBER, TomlFile, number, suggestion, unknown_key};
 use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
 use toml::Value;
 
-use crate::variables::{GROUPS, IntegerVariable, RealVariable};
-use crate::wall::{Bar, Kinematics, OF_RECTANGLE, ParameterError, Parameters};
+use rocking_wall::variables::{GROUPS, IntegerVariable, RealVariable};
+use rocking_wall::wall::{Bar, Kinematics, OF_RECTANGLE, ParameterError, Parameters};
 
-use super::body::{BODY, LOAD, OF_BODY, OPENING, PART, apply_body};
-use super::curve::{Curve, CurveTable, apply_curve};
-use super::error::SceneError;
-use super::keys::{
+use crate::body::{BODY, LOAD, OF_BODY, OPENING, PART, apply_body};
+use crate::curve::{Curve, CurveTable, apply_curve};
+use crate::error::SceneError;
+use crate::keys::{
     BAR, Group, KINEMATICS, KINEMATICS_GROUP, MULTILINEAR, OF_BAR, POINTS, TIE_GROUP, TieTables,
 };
-use super::schema::groups;
+use crate::schema::{BarTable, groups};
 
 /// Returns the names of the inputs of the model description.
 pub fn input_names() -> impl Iterator<Item = &'static str> {
@@ -118,8 +118,9 @@ pub fn apply_group(
         return Err(place.error(key.span(), message));
     }
     let own = file.find(BAR, &bar.span());
-    let read = own.map(|own| file.read_value(own)).transpose();
-    parameters.bar = read.map_err(|fault| place.error(fault.span, fault.message))?;
+    let read = own.map(|own| file.read_value::<BarTable>(own)).transpose();
+    let read = read.map_err(|fault| place.error(fault.span, fault.message))?;
+    parameters.bar = read.map(|BarTable(bar)| bar);
     follow_bar(parameters).map_err(|message| place.error(bar.span(), message))
 }
 
@@ -180,7 +181,7 @@ pub fn set_names() -> impl Iterator<Item = &'static str> {
 
 /// Sets a parameter from text: a number, or the name of an item with or without quotes.
 /// Tells the curve of the force law.
-pub(super) fn set_from_text(
+pub(crate) fn set_from_text(
     parameters: &mut Parameters,
     curve: &mut Option<Curve>,
     name: &str,

@@ -5,17 +5,17 @@ use fmu_export::VariableId;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 
-use crate::variables::RealVariable;
-use crate::wall::Parameters;
+use rocking_wall::variables::RealVariable;
+use rocking_wall::wall::Parameters;
 
-use super::keys::{Group, TieTables};
-use super::motion::MotionTable;
-use super::parameter::{apply_group, input_names};
-use super::storeys::{StoreyTable, SupportsTable};
-use super::{DEFAULT_THRESHOLDS, LONGEST_OUTPUT_STEP, LONGEST_RUN, MOST_THRESHOLDS};
+use crate::keys::{Group, TieTables};
+use crate::motion::MotionTable;
+use crate::parameter::{apply_group, input_names};
+use crate::storeys::{StoreyTable, SupportsTable};
+use crate::{DEFAULT_THRESHOLDS, LONGEST_OUTPUT_STEP, LONGEST_RUN, MOST_THRESHOLDS};
 
 /// Largest scene file that is read.
-pub(super) const MAX_FILE_BYTES: u64 = 4 << 20;
+pub(crate) const MAX_FILE_BYTES: u64 = 4 << 20;
 
 tables! {
     /// A scene.
@@ -104,7 +104,7 @@ impl Document {
     }
 
     /// The inputs the scene names.
-    pub(super) fn inputs(&self, place: &Place<'_>) -> Result<Vec<RealVariable>, FileError> {
+    pub(crate) fn inputs(&self, place: &Place<'_>) -> Result<Vec<RealVariable>, FileError> {
         let mut inputs = Vec::new();
         for name in self.inputs.iter().flatten() {
             let input = input_names().find(|input| input == name.get_ref()).and_then(RealVariable::from_name);

@@ -1,10 +1,11 @@
-//! A scene: a wall, its motion and what a run shows, as a TOML file.
+#![doc = include_str!("../README.md")]
 //!
+//! # Tables of a scene
 //! The tables `[geometry]`, `[force_law]`, `[damping]`, `[impact]`, `[tie]`, `[start]` and `[solver]` hold
 //! the parameters of the model description under the same names; `[motion]` says what moves the supports, or
 //! the ground below `[[storeys]]`, and `[supports]` between which of these the wall stands. `[check]` is read
 //! by whoever checks. An FMU made from a scene carries what its unit needs of it as bytes:
-//! [`UnitScene`](crate::unit::UnitScene).
+//! [`UnitScene`](rocking_wall::unit::UnitScene).
 
 mod body;
 mod curve;
@@ -14,6 +15,7 @@ mod keys;
 mod law;
 mod motion;
 mod parameter;
+pub mod response;
 mod schema;
 mod shocks;
 mod storeys;
@@ -25,11 +27,10 @@ use std::path::{Path, PathBuf};
 use files::{FileError, TomlFile, check_value, read_text};
 use fmu_export::VariableId;
 
-use crate::simulation::Excitation;
-use crate::variables::{BooleanVariable, Mechanism, RealVariable};
-use crate::wall::{Kinematics, Parameters, Wall, Warning, usage};
+use rocking_wall::simulation::Excitation;
+use rocking_wall::variables::{BooleanVariable, Mechanism, RealVariable};
+use rocking_wall::wall::{Kinematics, Parameters, Wall, Warning, usage};
 
-pub use crate::variables::GROUPS;
 pub use body::{BODIES, BodyTable, LoadTable, OF_BODY, OpeningTable, PartTable};
 pub use curve::{Curve, CurveTable, apply_curve, is_of_oscillator};
 pub use document::{Document, read_shape};
@@ -37,12 +38,13 @@ pub use keys::{Group, KINEMATICS, POINTS, TieTables};
 pub use motion::{DEFAULT_TAIL, LONGEST_TAIL};
 pub use motion::{HarmonicTable, MotionTable, RickerTable, SineTable, SyntheticTable};
 pub use parameter::{input_names, parameter_text, set_names};
+pub use rocking_wall::variables::GROUPS;
 pub use shocks::{RecordProblem, RecordTable, Shocks, fingerprint};
 pub use storeys::{Floors, HeavyWall, LIGHT, StoreyTable, SupportsTable};
 
 pub use error::SceneError;
 pub use parameter::{apply_group, apply_tables, check_limits};
-pub use schema::{parameter, parameters, variable};
+pub use schema::{BarTable, parameter, parameters, variable};
 pub use storeys::read_floors;
 pub use writing::to_toml;
 
@@ -207,7 +209,7 @@ impl Scene {
     /// [`SceneError::Value`] naming the value and its limit.
     ///
     /// ```
-    /// # use rocking_wall::scene::Scene;
+    /// # use scene::Scene;
     /// let error = Scene::default().set_output(Some(0.0), None, None).unwrap_err();
     /// assert!(error.to_string().starts_with("stop_time = 0 must be above 0 and at most 1e7: End"));
     /// ```

@@ -9,11 +9,11 @@ use files::{FileError, Place, tables};
 use ground_motion::{GroundMotion, GroundMotionError, Storey, Storeys};
 use toml::Spanned;
 
-use crate::choices::Mechanism;
-use crate::simulation::Excitation;
-use crate::wall::{Usual, Wall, Warning};
+use rocking_wall::choices::Mechanism;
+use rocking_wall::simulation::Excitation;
+use rocking_wall::wall::{Usual, Wall, Warning};
 
-use super::error::SceneError;
+use crate::error::SceneError;
 
 /// Damping ratio of a storey that states none (-).
 const DAMPING: f64 = 0.05;
@@ -255,7 +255,7 @@ impl Floors {
     }
 
     /// Writes the tables that read as these storeys.
-    pub(super) fn to_toml(&self) -> String {
+    pub(crate) fn to_toml(&self) -> String {
         let mut text = String::from("\n[supports]\n");
         let floors = [("bottom", self.bottom), ("top", self.top)];
         text.extend(floors.iter().filter_map(|(name, floor)| Some(format!("{name} = {}\n", (*floor)?))));

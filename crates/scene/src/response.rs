@@ -7,10 +7,11 @@ use std::fmt::Write;
 
 use serde::{Serialize, Serializer};
 
-use crate::scene::{Scene, SceneError};
-use crate::simulation::{Outputs, Simulation, segment_of};
-use crate::solver::{Demands, Work};
-use crate::wall::{Sides, Support, Warning};
+use rocking_wall::simulation::{Outputs, Simulation, segment_of};
+use rocking_wall::solver::{Demands, Work};
+use rocking_wall::wall::{Sides, Support, Warning};
+
+use crate::{Scene, SceneError};
 
 pub use shock::Shock;
 
@@ -125,7 +126,7 @@ impl Fate {
     /// Describes a fate beyond `u_ins`, its times to a number of decimals; `None` for a wall that stands.
     ///
     /// ```
-    /// use rocking_wall::response::Fate;
+    /// use scene::response::Fate;
     ///
     /// let fate = Fate::Falls { exceeds: 2.0, falls: 3.5 };
     /// assert_eq!(fate.words(1).unwrap(), "exceeds u_ins at 2.0 s, comes back and falls at 3.5 s");

@@ -4,16 +4,16 @@ use std::fmt::Write;
 
 use fmu_export::VariableId as _;
 
-use crate::variables::GROUPS;
-use crate::wall::{
+use rocking_wall::variables::GROUPS;
+use rocking_wall::wall::{
     Bar, Hollow, Kinematics, Load, OF_RECTANGLE, Opening, Parameters, Part, Profile, is_computable, usage,
 };
 
-use super::body::{LOAD, OPENING, PART};
-use super::keys::{BAR, KINEMATICS, OF_BAR, POINTS, TIE_GROUP};
-use super::parameter::parameter_text;
-use super::storeys::Floors;
-use super::{DEFAULT_THRESHOLDS, Scene};
+use crate::body::{LOAD, OPENING, PART};
+use crate::keys::{BAR, KINEMATICS, OF_BAR, POINTS, TIE_GROUP};
+use crate::parameter::parameter_text;
+use crate::storeys::Floors;
+use crate::{DEFAULT_THRESHOLDS, Scene};
 
 /// Writes a scene file that reads as `scene`. `motion` is the text of its `[motion]` table, or empty.
 pub fn to_toml(scene: &Scene, motion: &str) -> String {

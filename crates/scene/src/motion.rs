@@ -10,11 +10,11 @@ use ground_motion::{
 };
 use toml::Spanned;
 
-use crate::simulation::Excitation;
-use crate::wall::six_digits;
+use rocking_wall::simulation::Excitation;
+use rocking_wall::wall::six_digits;
 
-use super::error::SceneError;
-use super::shocks::{RecordProblem as Problem, RecordTable, Shocks, scaled};
+use crate::error::SceneError;
+use crate::shocks::{RecordProblem as Problem, RecordTable, Shocks, scaled};
 
 /// Free vibration after a scene's motion when it states no tail \[s\].
 pub const DEFAULT_TAIL: f64 = 10.0;
@@ -116,15 +116,15 @@ tables! {
 }
 
 /// A motion ready to use.
-pub(super) struct Loaded {
-    pub(super) excitation: Excitation,
-    pub(super) tail: f64,
-    pub(super) notes: Vec<String>,
+pub(crate) struct Loaded {
+    pub(crate) excitation: Excitation,
+    pub(crate) tail: f64,
+    pub(crate) notes: Vec<String>,
     /// Files of the records.
-    pub(super) records: Vec<PathBuf>,
+    pub(crate) records: Vec<PathBuf>,
 }
 
-pub(super) fn load(
+pub(crate) fn load(
     table: &Spanned<MotionTable>,
     place: &Place<'_>,
     folder: &Path,

@@ -3,8 +3,8 @@
 use files::FileError;
 use ground_motion::GroundMotionError;
 
-use crate::simulation::RunError;
-use crate::wall::ParameterError;
+use rocking_wall::simulation::RunError;
+use rocking_wall::wall::ParameterError;
 
 /// Why a scene cannot be used.
 #[derive(Debug, thiserror::Error)]

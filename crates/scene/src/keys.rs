@@ -26,7 +26,7 @@ impl Deref for Group {
 pub struct TieTables {
     tables: Vec<Group>,
     /// Whether they are a list.
-    pub(super) is_list: bool,
+    pub(crate) is_list: bool,
 }
 
 impl Deref for TieTables {
@@ -69,15 +69,15 @@ pub const POINTS: &str = "points";
 pub const KINEMATICS: &str = "kinematics";
 
 /// The key in `[tie]` of the bar, a table of its own.
-pub(super) const BAR: &str = "bar";
+pub(crate) const BAR: &str = "bar";
 /// The table that holds a tie.
-pub(super) const TIE_GROUP: &str = "tie";
+pub(crate) const TIE_GROUP: &str = "tie";
 /// Most ties of a wall.
-pub(super) const MOST_TIES: usize = 100;
+pub(crate) const MOST_TIES: usize = 100;
 /// The parameters that follow from the bar of a tie.
-pub(super) const OF_BAR: [&str; 3] = ["tie_stiffness", "tie_strength", "tie_ultimate"];
+pub(crate) const OF_BAR: [&str; 3] = ["tie_stiffness", "tie_strength", "tie_ultimate"];
 
 /// The name in `force_law` that stands for a law of points.
-pub(super) const MULTILINEAR: &str = "multilinear";
+pub(crate) const MULTILINEAR: &str = "multilinear";
 /// The table that holds the kinematics.
-pub(super) const KINEMATICS_GROUP: &str = "geometry";
+pub(crate) const KINEMATICS_GROUP: &str = "geometry";

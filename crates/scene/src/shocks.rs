@@ -55,7 +55,7 @@ impl RecordTable {
     }
 
     /// Reads the record, in `folder` and not scaled, with `common` options where it states none.
-    pub(super) fn read(&self, common: &RecordOptions, folder: &Path) -> Result<Record, RecordProblem> {
+    pub(crate) fn read(&self, common: &RecordOptions, folder: &Path) -> Result<Record, RecordProblem> {
         let path = folder.join(&self.record);
         let options = RecordOptions {
             unit: self.unit.or(common.unit),
@@ -85,7 +85,7 @@ pub fn fingerprint(bytes: &[u8]) -> String {
 }
 
 /// Scales a motion by a factor or to a peak, if one of them is given.
-pub(super) fn scaled(
+pub(crate) fn scaled(
     motion: GroundMotion,
     factor: Option<f64>,
     pga: Option<Acceleration>,

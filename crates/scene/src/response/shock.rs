@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use crate::scene::Scene;
-use crate::simulation::{Excitation, Progress, RunError, Simulation, segment_of};
-use crate::solver::{Demands, Peaks, State, TieDemands};
+use rocking_wall::simulation::{Excitation, Progress, RunError, Simulation, segment_of};
+use rocking_wall::solver::{Demands, Peaks, State, TieDemands};
+
+use crate::Scene;
 
 /// A shock of a sequence, from its first sample to that of the next one, or to the end of the run. The wall,
 /// its ties and what they remember go on from one to the next.

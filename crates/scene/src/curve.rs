@@ -18,12 +18,12 @@ use ground_motion::columns::{Columns, Fault, Measured, Name};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::choices::Mechanism;
-use crate::variables::GROUPS;
-use crate::wall::{Body, COMPUTED, ParameterError, Parameters, Sides, Statics, check_points};
+use rocking_wall::choices::Mechanism;
+use rocking_wall::variables::GROUPS;
+use rocking_wall::wall::{Body, COMPUTED, ParameterError, Parameters, Sides, Statics, check_points};
 
-use super::keys::{Group, KINEMATICS_GROUP, MULTILINEAR};
-use super::law::Law;
+use crate::keys::{Group, KINEMATICS_GROUP, MULTILINEAR};
+use crate::law::Law;
 
 /// Largest file that is read.
 const MAX_FILE_BYTES: u64 = 1 << 20;

@@ -4,17 +4,17 @@ use files::{Described, Groups, Schema, Tables, list, names, object, one_of, posi
 use fmu_export::{Kind, Variable, VariableId};
 use toml::Value;
 
-use crate::variables::{GROUPS, IntegerVariable, RealVariable};
-use crate::wall::{Bar, BarNumber, Kinematics};
+use rocking_wall::variables::{GROUPS, IntegerVariable, RealVariable};
+use rocking_wall::wall::{Bar, BarNumber, Kinematics};
 
-use super::body::{BODY, LOAD, OPENING, PART, describe_body};
-use super::curve::CurveTable;
-use super::keys::{
+use crate::body::{BODY, LOAD, OPENING, PART, describe_body};
+use crate::curve::CurveTable;
+use crate::keys::{
     BAR, Group, KINEMATICS, KINEMATICS_GROUP, MOST_TIES, MULTILINEAR, POINTS, TIE_GROUP, TieTables,
 };
 
 /// Returns the keys of the groups that who applies a group checks, and knows the place of.
-pub(super) fn groups() -> Groups {
+pub(crate) fn groups() -> Groups {
     let mut groups: Groups = GROUPS.iter().map(|(group, names)| (*group, names.to_vec())).collect();
     groups.entry("force_law").or_default().extend(names::<CurveTable>());
     groups.entry(KINEMATICS_GROUP).or_default().extend([KINEMATICS, PART, OPENING, LOAD, BODY]);
@@ -51,7 +51,12 @@ impl Described for TieTables {
     }
 }
 
-impl Described for Bar {
+/// A bar as the table of a file.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(transparent)]
+pub struct BarTable(pub Bar);
+
+impl Described for BarTable {
     fn describe(_key: &str, _tables: &mut Tables) -> Schema {
         bar()
     }

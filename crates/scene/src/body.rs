@@ -7,16 +7,16 @@ use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use toml::de::DeValue;
 use toml::{Spanned, Value};
 
-use crate::choices::Mechanism;
-use crate::wall::{COMPUTED, Hollow, Item, Load, OF_RECTANGLE, Opening, Parameters, Part, Profile};
+use rocking_wall::choices::Mechanism;
+use rocking_wall::wall::{COMPUTED, Hollow, Item, Load, OF_RECTANGLE, Opening, Parameters, Part, Profile};
 
-use super::keys::Group;
+use crate::keys::Group;
 
 /// The keys in `[geometry]` of parts, openings, loads and integrals.
-pub(super) const PART: &str = "part";
-pub(super) const OPENING: &str = "opening";
-pub(super) const LOAD: &str = "load";
-pub(super) const BODY: &str = "body";
+pub(crate) const PART: &str = "part";
+pub(crate) const OPENING: &str = "opening";
+pub(crate) const LOAD: &str = "load";
+pub(crate) const BODY: &str = "body";
 
 /// The keys in `[geometry]` that stand in place of the parameters of a rectangle.
 pub const BODIES: [&str; 2] = [PART, BODY];
@@ -176,7 +176,7 @@ impl Described for Ends {
 }
 
 /// Adds to the schema of `[geometry]` what describes a body.
-pub(super) fn describe_body(members: &mut Schema, tables: &mut Tables) {
+pub(crate) fn describe_body(members: &mut Schema, tables: &mut Tables) {
     let lists = [
         (PART, PartTable::describe(PART, tables), "Parts of the masonry, in place of one rectangle."),
         (OPENING, OpeningTable::describe(OPENING, tables), "Openings and hollows in the parts."),
@@ -194,7 +194,7 @@ pub(super) fn describe_body(members: &mut Schema, tables: &mut Tables) {
 ///
 /// # Errors
 /// [`FileError`] of the key, the part, the opening or the load at fault.
-pub(super) fn apply_body(
+pub(crate) fn apply_body(
     parameters: &mut Parameters,
     entries: &Group,
     file: &TomlFile<'_>,

@@ -7,7 +7,7 @@
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
-use crate::wall::{Body, Sides, six_digits};
+use rocking_wall::wall::{Body, Sides, six_digits};
 
 /// How far the end of a curve may be from `u_ins` without a word, of it \[-\].
 const MOST_OFF_END: f64 = 0.01;
@@ -19,25 +19,25 @@ const USUAL_ENDS: RangeInclusive<f64> = 0.001..=5.0;
 const USUAL_ACCELERATIONS: RangeInclusive<f64> = 0.005..=5.0;
 
 /// A law of some of the points of a curve.
-pub(super) struct Law {
-    pub(super) points: Vec<[f64; 2]>,
+pub(crate) struct Law {
+    pub(crate) points: Vec<[f64; 2]>,
     /// The place of the origin among the points.
     zero: usize,
     /// The places of the points that are kept, rising.
-    pub(super) kept: Vec<usize>,
+    pub(crate) kept: Vec<usize>,
     /// The largest |ΔF| between law and curve over the largest |F| of its side \[-\], and its u \[m\].
     off: [f64; 2],
 }
 
 /// The end of a side of a law: its point, dF/du of the last line, and |u| where that is 0.
-pub(super) struct End {
+pub(crate) struct End {
     point: [f64; 2],
-    pub(super) slope: f64,
-    pub(super) u: f64,
+    pub(crate) slope: f64,
+    pub(crate) u: f64,
 }
 
 impl Law {
-    pub(super) fn new(mut points: Vec<[f64; 2]>, tolerance: f64) -> Self {
+    pub(crate) fn new(mut points: Vec<[f64; 2]>, tolerance: f64) -> Self {
         let zero = points.partition_point(|point| point[0] < 0.0);
         points.insert(zero, [0.0; 2]);
         let [left, right] = [&points[..zero], &points[zero..]].map(largest_force);
@@ -65,7 +65,7 @@ impl Law {
     }
 
     /// The ends of u > 0 and, where the curve has that side, of u < 0.
-    pub(super) fn ends(&self) -> impl Iterator<Item = End> {
+    pub(crate) fn ends(&self) -> impl Iterator<Item = End> {
         let count = self.kept.len();
         let pairs = [Some([count - 2, count - 1]), (self.zero > 0).then_some([1, 0])];
         pairs.into_iter().flatten().map(|pair| {
@@ -76,7 +76,7 @@ impl Law {
     }
 
     /// Returns the corners [u/`u_ins`, F/F₀] on a body.
-    pub(super) fn fractions(&self, body: &Body) -> Vec<[f64; 2]> {
+    pub(crate) fn fractions(&self, body: &Body) -> Vec<[f64; 2]> {
         let fraction = |[u, force]: [f64; 2]| [u / body.instability.of(u), force / body.strength.of(u)];
         let corners = self.kept.iter().filter(|at| **at != self.zero).map(|at| self.points[*at]);
         let is_mirrored = self.zero == 0 && body.strength != Sides::both(body.strength.positive);
@@ -85,7 +85,7 @@ impl Law {
     }
 
     /// Says how many points the law keeps, and how far it is from the others.
-    pub(super) fn short_note(&self) -> String {
+    pub(crate) fn short_note(&self) -> String {
         let [kept, all] = [self.kept.len(), self.points.len()].map(|count| count - 1);
         let points = format!("{kept} of {all} points");
         let percent = 100.0 * self.off[0];
@@ -93,7 +93,7 @@ impl Law {
     }
 
     /// Goes on after the short note: where the law is farthest off, and how it ends.
-    pub(super) fn rest_of_note(&self) -> String {
+    pub(crate) fn rest_of_note(&self) -> String {
         let [off, u] = self.off;
         let mut note = String::new();
         // writing to a String cannot fail
@@ -107,7 +107,7 @@ impl Law {
     }
 
     /// Says where the curve does not fit the geometry of a body: an end other than `u_ins`, an improbable F.
-    pub(super) fn doubts(&self, body: &Body) -> Vec<String> {
+    pub(crate) fn doubts(&self, body: &Body) -> Vec<String> {
         let mut doubts = Vec::new();
         for End { point: [last, _], u: end, .. } in self.ends() {
             let (u_ins, f0) = (body.instability.of(last), body.strength.of(last));
@@ -132,7 +132,7 @@ impl Law {
     }
 
     /// Says where the curve of an oscillator is improbable; `weight` is λ `m_eff` g \[N\].
-    pub(super) fn doubts_of_oscillator(&self, weight: f64) -> Vec<String> {
+    pub(crate) fn doubts_of_oscillator(&self, weight: f64) -> Vec<String> {
         let mut doubts = Vec::new();
         let end = self.ends().map(|end| end.u).fold(0.0, f64::max);
         if !USUAL_ENDS.contains(&end) {
