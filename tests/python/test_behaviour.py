@@ -272,7 +272,7 @@ def test_an_input_file_gives_the_held_answer(fmu, wall, tmp_path):
         "--input-file",
         record,
         "--stop-time",
-        "30",
+        "12",
         "--start-values",
         "u_start",
         "0",
@@ -290,7 +290,7 @@ def test_an_input_file_gives_the_held_answer(fmu, wall, tmp_path):
             "--unit",
             "m/s2",
             "--stop-time",
-            "30",
+            "12",
             "--json",
             *extra,
         ]
