@@ -44,7 +44,7 @@ PAGES = {
     "reproduce": (None, 20),
     "check report": (f"check {ROOT / 'scenes/checked_parapet.toml'} --report {{}}", 0),
     "check": ("check scene.toml --report {}", 0),
-    "accuracy": (f"verify accuracy {ROOT / 'scenes/shaken_parapet.toml'} --budget 0.001 --html {{}}", 3),
+    "accuracy": (f"verify accuracy {ROOT / 'scenes/plain_parapet.toml'} --budget 0.001 --html {{}}", 3),
     "playground": (None, 0),
 }  # fmt: skip
 # A4 between Chromium's margins of 1 cm, in px

@@ -172,16 +172,16 @@ class Unit:
         self.slave.setRealInputDerivatives(references, [1] * len(values), list(values.values()))
 
     def get(self, *names):
-        values = []
-        for name in names:
-            variable = self.variables[name]
-            reference = [variable.valueReference]
-            if variable.type == "Real":
-                values += self.slave.getReal(reference)
-            elif variable.type == "Boolean":
-                values += [bool(value) for value in self.slave.getBoolean(reference)]
+        values, variables = [], (self.variables[name] for name in names)
+        for kind, group in itertools.groupby(variables, lambda variable: variable.type):
+            # one call for all that follow each other
+            references = [variable.valueReference for variable in group]
+            if kind == "Real":
+                values += self.slave.getReal(references)
+            elif kind == "Boolean":
+                values += map(bool, self.slave.getBoolean(references))
             else:
-                values += self.slave.getInteger(reference)
+                values += self.slave.getInteger(references)
         return values[0] if len(values) == 1 else values
 
     def start(self, time=0.0, importer_tolerance=None, stop=None, **values):
