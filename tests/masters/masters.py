@@ -1,8 +1,8 @@
 """Four masters that move the same system with the same scheme: Jacobi, inputs held, one step for all.
 
 Each takes a `Building` and returns the watched variables, one row for each step. Packages are imported where
-they are used, so that a missing one fails only its own test. Each master runs in a process of its own,
-because the libraries conflict (libcosim's logging crashes the container):
+they are used, so that a missing one fails only its own test. Masters with libraries of their own run in a
+process of their own, because these conflict (libcosim's logging crashes the container):
 
     python masters.py MASTER SSP STEP STEPS OUTPUT.npy WATCHED...
 """
