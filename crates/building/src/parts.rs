@@ -63,6 +63,12 @@ impl Parts {
         (self.system.components.len(), self.system.described().count())
     }
 
+    /// Writes the description of the system, `SystemStructure.ssd` of the SSP, with the communication step
+    /// `step` \[s\].
+    pub fn description(&self, building: &Building, step: f64) -> String {
+        ssd::text(building, &self.system, step)
+    }
+
     /// Makes the SSP of the building from the general FMUs of walls and floors. The system and each unit
     /// state the building's stop time and the communication step `step` \[s\].
     ///
@@ -89,7 +95,7 @@ impl Parts {
             let bytes = unit.to_bytes().map_err(|error| BuildingError::of_floor(&floor.name, error))?;
             archive.insert(fmu_path(&floor.name), bytes);
         }
-        archive.insert("SystemStructure.ssd", ssd::text(building, &self.system, step));
+        archive.insert("SystemStructure.ssd", self.description(building, step));
         Ok(archive)
     }
 }

@@ -16,6 +16,7 @@ use scene::{Floors, Scene, StoreyTable, SupportsTable};
 
 #[path = "../../../../tests/it/broken.rs"]
 mod broken;
+mod description;
 
 const STOREYS: [(f64, f64); 3] = [(2.0e4, 4.0e7), (2.0e4, 3.0e7), (1.5e4, 2.0e7)];
 

@@ -1,0 +1,52 @@
+//! Tests the description of a building as a system of FMUs.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use building::{Building, Parts};
+
+/// The three storeys among the scenes: a strip wall between floors, and two parapets.
+fn described(title: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/building/three_storeys.toml");
+    let mut building = Building::read(&path).unwrap();
+    building.title = title.to_owned();
+    Parts::read(&building).unwrap().description(&building, 0.0025)
+}
+
+/// The values of an attribute.
+fn values<'a>(xml: &'a str, attribute: &str) -> BTreeSet<&'a str> {
+    let parts = xml.split(attribute).skip(1);
+    parts.filter_map(|rest| rest.strip_prefix("=\"")?.split('"').next()).collect()
+}
+
+#[test]
+fn every_unit_of_a_connector_has_its_base_units() {
+    let xml = described("Units");
+    let units = values(&xml, " unit");
+    assert!(units.contains("m/s2") && units.contains("N"), "{units:?}");
+    for unit in units {
+        let described = xml.split(&format!("<ssc:Unit name=\"{unit}\"><ssc:BaseUnit")).nth(1);
+        let base = described.unwrap_or_else(|| panic!("{unit} is not described"));
+        assert_eq!(base.starts_with("/>"), unit == "1", "{unit}: {}", &base[..20]);
+    }
+}
+
+/// `OMSimulator` accepts only identifiers as names. The annotation tells it that a system has a master.
+#[test]
+fn names_are_identifiers_and_the_system_states_its_step() {
+    let xml = described("A \"tall\" house");
+    let (system, units) = xml.split_once("<ssd:Units>").unwrap();
+    let names = values(system, " name");
+    assert!(names.contains("building") && names.contains("strip"), "{names:?}");
+    for name in names {
+        assert!(name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'), "{name}");
+    }
+    assert!(values(units, "Unit name").contains("m/s2"));
+    assert!(xml.contains("<oms:FixedStepMaster description=\"oms-ma\" stepSize=\"0.0025\""));
+}
+
+#[test]
+fn titles_are_escaped() {
+    let xml = described("a \"b\" <c> & d\n");
+    assert!(xml.contains("<ssd:System name=\"building\" description=\"a &quot;b&quot; &lt;c> &amp; d \">"));
+}
