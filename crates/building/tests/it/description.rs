@@ -9,7 +9,7 @@ use building::{Building, Parts};
 fn described(title: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/building/three_storeys.toml");
     let mut building = Building::read(&path).unwrap();
-    building.title = title.to_owned();
+    title.clone_into(&mut building.title);
     Parts::read(&building).unwrap().description(&building, 0.0025)
 }
 
