@@ -8,6 +8,7 @@ import subprocess
 import pytest
 from selenium.webdriver.common.by import By
 
+
 @pytest.fixture(scope="module")
 def calibration(wall, tmp_path_factory):
     path = tmp_path_factory.mktemp("calibrate") / "calibration.html"
