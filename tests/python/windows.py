@@ -65,12 +65,14 @@ class FMU2Recorder(FMU2Slave):
 
     def getReal(self, vr):
         values = super().getReal(vr)
-        self.keep("get", *vr, *map(digits, values))
+        for reference, value in zip(vr, values, strict=True):
+            self.keep("get", reference, digits(value))
         return values
 
     def getBoolean(self, vr):
         values = super().getBoolean(vr)
-        self.keep("truth", *vr, *map(int, values))
+        for reference, value in zip(vr, values, strict=True):
+            self.keep("truth", reference, int(value))
         return values
 
     def doStep(self, currentCommunicationPoint, communicationStepSize):
