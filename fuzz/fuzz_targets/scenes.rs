@@ -2,9 +2,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use scene::{Scene, to_toml};
 use rocking_wall::simulation::Simulation;
 use rocking_wall::wall::Support;
+use scene::{Scene, to_toml};
 use std::path::Path;
 
 fuzz_target!(|text: &str| {

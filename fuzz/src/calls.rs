@@ -9,8 +9,8 @@
 //! and, unless assertions slow it down, a call that takes over a second.
 
 use fmu_export::ModelExchange;
-use scene::Scene;
 use rocking_wall_fuzz::driver::{Figures, Instance};
+use scene::Scene;
 use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;

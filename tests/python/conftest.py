@@ -15,6 +15,7 @@ from unit import Unit
 
 ROOT = Path(__file__).parents[2]
 OF_PAGES = ("test_page.py", "test_paper.py", "test_playground.py", "test_reproduce_page.py")
+LINES = ["PEER", "A TEST", "ACCELERATION TIME SERIES IN UNITS OF G", "NPTS= 1000, DT= .01 SEC"]
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = (
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -112,6 +113,7 @@ class WholeFiles(LoadFileScheduling):
         return "pages" if file in OF_PAGES else file
 
 
+@pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
     return WholeFiles(config, log)
 
@@ -151,9 +153,6 @@ def playground():
         pytest.skip("not run: no playground; run `cargo xtask playground` and name the page in "
                     "ROCKING_WALL_PLAYGROUND")  # fmt: skip
     return Path(path).absolute()
-
-
-LINES = ["PEER", "A TEST", "ACCELERATION TIME SERIES IN UNITS OF G", "NPTS= 1000, DT= .01 SEC"]
 
 
 @pytest.fixture(scope="session")

@@ -39,7 +39,7 @@ def record(wall, tmp_path_factory):
     times, samples = np.loadtxt(rows, delimiter=",").T
     part = (times >= START) & (times <= END)
     times, samples = times[part] - START, samples[part]
-    rows = [f"{time},{sample}" for time, sample in zip(times, samples, strict=True)]
+    rows = [f"{time:.6f},{sample}" for time, sample in zip(times, samples, strict=True)]
     path.write_text("\n".join([head, *rows]) + "\n")
     return path, lambda t: np.interp(t, times, samples, right=0.0)
 

@@ -109,14 +109,17 @@ def example_files(path):
 
 @pytest.fixture
 def work(tmp_path, fmu, floor_fmu, wall):
-    """A folder as a reader has it: the repository with its FMUs, and files of the reader's own."""
+    """A folder as a reader has it, with a quick study of Table 5: the repository, its FMUs, and own files."""
     for name in ("scenes", "examples", "tests"):
         (tmp_path / name).symlink_to(ROOT / name)
-    # with a tenth of its records; crates/wall-cli/tests/it/ida.rs runs a part of the whole one
     (tmp_path / "studies").mkdir()
+    for study in (ROOT / "studies").iterdir():
+        (tmp_path / "studies" / study.name).symlink_to(study)
+    # with a tenth of its records; crates/wall-cli/tests/it/ida.rs runs a part of the whole one
     table_5 = (ROOT / "studies/table_5.toml").read_text()
-    assert "count = 20" in table_5
-    (tmp_path / "studies/table_5.toml").write_text(table_5.replace("count = 20", "count = 2"))
+    assert "count = 20," in table_5
+    (tmp_path / "studies/table_5.toml").unlink()
+    (tmp_path / "studies/table_5.toml").write_text(table_5.replace("count = 20,", "count = 2,"))
     (tmp_path / "fmu_out/fmi3").mkdir(parents=True)
     for path in (fmu, floor_fmu):
         (tmp_path / "fmu_out" / path.name).symlink_to(path)

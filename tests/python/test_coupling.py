@@ -13,7 +13,7 @@ from fmpy.fmi1 import FMICallException
 
 from conftest import ROOT
 from exchange import Exchange, integrate, parapet_on_floor
-from monolith import GROUND, Monolith, Wall
+from monolith import Monolith, Wall
 from two_body import rod_energy
 
 sys.path[:0] = [str(ROOT / "examples/coupling"), str(ROOT / "tests/coupling")]

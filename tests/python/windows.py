@@ -65,6 +65,7 @@ class FMU2Recorder(FMU2Slave):
 
     def getReal(self, vr):
         values = super().getReal(vr)
+        # the driver compares one value a line
         for reference, value in zip(vr, values, strict=True):
             self.keep("get", reference, digits(value))
         return values

@@ -117,32 +117,36 @@ def test_the_wheel_needs_numpy_alone():
     assert set(run(python, "-c", code).lower().split()) == {"numpy", "rocking-wall"}
 
 
+# Runs each example in a folder of its own.
 EACH = """
-import json, runpy, sys, traceback
+import json, os, pathlib, runpy, sys, tempfile, traceback
+out, *paths = sys.argv[1:]
 failed = {}
-for path in sys.argv[1:]:
+for path in paths:
     sys.argv = [path]
+    os.chdir(tempfile.mkdtemp(dir=pathlib.Path(out).parent))
     try:
         runpy.run_path(path, run_name="__main__")
     except SystemExit as end:
         failed |= {path: str(end.code)} if end.code else {}
     except Exception:
         failed[path] = traceback.format_exc()
-json.dump(failed, open("failed.json", "w"))
+pathlib.Path(out).write_text(json.dumps(failed))
 """
 
 
 @pytest.fixture(scope="module")
-def failed(tmp_path_factory):
+def failures(tmp_path_factory):
     """The examples that fail where numpy is alone, with their errors, by path; one process imports numpy."""
-    python, folder = other_python("ROCKING_WALL_BARE_PYTHON"), tmp_path_factory.mktemp("examples")
-    run(python, "-c", EACH, *(ROOT / "examples/python" / name for name in EXAMPLES), cwd=folder)
-    return json.loads((folder / "failed.json").read_text())
+    out = tmp_path_factory.mktemp("examples") / "failures.json"
+    python = other_python("ROCKING_WALL_BARE_PYTHON")
+    run(python, "-c", EACH, out, *(ROOT / "examples/python" / name for name in EXAMPLES))
+    return json.loads(out.read_text())
 
 
 @pytest.mark.parametrize("example", EXAMPLES)
-def test_examples_with_numpy_alone(example, failed):
-    error = failed.get(str(ROOT / "examples/python" / example))
+def test_examples_with_numpy_alone(example, failures):
+    error = failures.get(str(ROOT / "examples/python" / example))
     assert error is None, error
 
 

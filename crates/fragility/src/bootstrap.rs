@@ -2,16 +2,16 @@
 
 use std::f64::consts::LN_10;
 
-use crate::dispersion::Estimator;
-use crate::fit::Lognormal;
-use crate::normal::cumulative;
-use crate::sample::Sample;
-use crate::weights::Weights;
 use report::table::{Digits, between};
 use run::parallel::stop_if_asked;
 use run::sample::{Pcg, unsorted_fractile};
 
 use crate::curve::Exceedance;
+use crate::dispersion::Estimator;
+use crate::fit::Lognormal;
+use crate::normal::cumulative;
+use crate::sample::Sample;
+use crate::weights::Weights;
 
 /// Fewest records whose resamples are studentised. Of 4, 5 and 6 records 34, 10 and 2.0 % of the resamples
 /// draw two or fewer different ones. Up to 5 they are the 2.5 % at an end of an interval, which then says how

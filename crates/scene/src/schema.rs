@@ -51,7 +51,7 @@ impl Described for TieTables {
     }
 }
 
-/// A bar as the table of a file.
+/// A bar as the table of a file: [`Bar`] belongs to a crate that reads no files.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
 #[serde(transparent)]
 pub struct BarTable(pub Bar);

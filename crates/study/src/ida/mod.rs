@@ -43,7 +43,6 @@ use run::parallel;
 use run::records::NamedRecord;
 use run::shaking::felt;
 use run::walls::NamedWall;
-pub use scene::DEFAULT_TAIL;
 
 pub use error::IdaError;
 pub use fragility::{Crossing, Curve, Exceedance, Run, SENSITIVE_ABOVE, TieDemand};
@@ -51,6 +50,7 @@ pub use levels::{Layout, Levels};
 pub use measure::{IntensityMeasure, Misfit, ToSi};
 pub use outcome::Collapse;
 pub use polarity::Polarity;
+pub use scene::DEFAULT_TAIL;
 pub use sequence::Scaled;
 pub use unit::IntensityUnit;
 

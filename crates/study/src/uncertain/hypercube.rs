@@ -1,9 +1,8 @@
 //! Latin hypercubes with correlated ranks.
 
-use run::sample::Pcg;
-
 use fragility::linear::{cholesky, forward};
 use fragility::quantile;
+use run::sample::Pcg;
 
 /// Squares of pivots below this are 0: a column is nearly made of others.
 pub(super) const SINGULAR: f64 = 1e-9;
