@@ -11,17 +11,14 @@ use crate::wiring::{Connection, System};
 /// The name of description and system. Some importers want identifiers, so the title is the description.
 const NAME: &str = "building";
 
-/// Units in SI base units, as in the model descriptions.
-const UNITS: [(&str, &str); 9] = [
+/// Units of connectors in SI base units, as in the model descriptions.
+const UNITS: [(&str, &str); 6] = [
     ("1", ""),
     ("m", r#" m="1""#),
     ("m/s", r#" m="1" s="-1""#),
     ("m/s2", r#" m="1" s="-2""#),
-    ("kg", r#" kg="1""#),
     ("s", r#" s="1""#),
     ("N", r#" kg="1" m="1" s="-2""#),
-    ("N/m", r#" kg="1" s="-2""#),
-    ("N.s/m", r#" kg="1" s="-1""#),
 ];
 
 /// The text of `SystemStructure.ssd`, with the communication step `step` \[s\]: that of `oms` is for
