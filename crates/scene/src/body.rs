@@ -3,12 +3,11 @@
 use std::fmt;
 
 use files::{Described, FileError, Schema, Tables, TomlFile, list, tables, with};
+use rocking_wall::choices::Mechanism;
+use rocking_wall::wall::{COMPUTED, Hollow, Item, Load, OF_RECTANGLE, Opening, Parameters, Part, Profile};
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 use toml::de::DeValue;
 use toml::{Spanned, Value};
-
-use rocking_wall::choices::Mechanism;
-use rocking_wall::wall::{COMPUTED, Hollow, Item, Load, OF_RECTANGLE, Opening, Parameters, Part, Profile};
 
 use crate::keys::Group;
 

@@ -15,12 +15,11 @@ use std::path::{Path, PathBuf};
 
 use files::{FileError, TomlFile, names, read_text, tables};
 use ground_motion::columns::{Columns, Fault, Measured, Name};
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
-
 use rocking_wall::choices::Mechanism;
 use rocking_wall::variables::GROUPS;
 use rocking_wall::wall::{Body, COMPUTED, ParameterError, Parameters, Sides, Statics, check_points};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 use crate::keys::{Group, KINEMATICS_GROUP, MULTILINEAR};
 use crate::law::Law;

@@ -2,11 +2,10 @@
 
 use files::{FileError, Place, TomlFile, fraction, one_of, tables};
 use fmu_export::VariableId;
-use serde::de::IgnoredAny;
-use toml::Spanned;
-
 use rocking_wall::variables::RealVariable;
 use rocking_wall::wall::Parameters;
+use serde::de::IgnoredAny;
+use toml::Spanned;
 
 use crate::keys::{Group, TieTables};
 use crate::motion::MotionTable;

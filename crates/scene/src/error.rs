@@ -2,7 +2,6 @@
 
 use files::FileError;
 use ground_motion::GroundMotionError;
-
 use rocking_wall::simulation::RunError;
 use rocking_wall::wall::ParameterError;
 

@@ -26,7 +26,6 @@ use std::path::{Path, PathBuf};
 
 use files::{FileError, TomlFile, check_value, read_text};
 use fmu_export::VariableId;
-
 use rocking_wall::simulation::Excitation;
 use rocking_wall::variables::{BooleanVariable, Mechanism, RealVariable};
 use rocking_wall::wall::{Kinematics, Parameters, Wall, Warning, usage};

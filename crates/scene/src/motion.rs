@@ -8,10 +8,9 @@ use ground_motion::{
     Acceleration, DEFAULT_PAUSE, Format, GroundMotion, GroundMotionError, Pulse, Record, RecordOptions,
     Shape, SyntheticMotion, Unit, file_name,
 };
-use toml::Spanned;
-
 use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::six_digits;
+use toml::Spanned;
 
 use crate::error::SceneError;
 use crate::shocks::{RecordProblem as Problem, RecordTable, Shocks, scaled};

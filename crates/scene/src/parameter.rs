@@ -4,10 +4,9 @@ use std::path::Path;
 
 use files::{FileError, NUMBER, TomlFile, number, suggestion, unknown_key};
 use fmu_export::{Causality, Kind, Variable, VariableId, check_real};
-use toml::Value;
-
 use rocking_wall::variables::{GROUPS, IntegerVariable, RealVariable};
 use rocking_wall::wall::{Bar, Kinematics, OF_RECTANGLE, ParameterError, Parameters};
+use toml::Value;
 
 use crate::body::{BODY, LOAD, OF_BODY, OPENING, PART, apply_body};
 use crate::curve::{Curve, CurveTable, apply_curve};

@@ -5,11 +5,10 @@ mod shock;
 use std::borrow::Cow;
 use std::fmt::Write;
 
-use serde::{Serialize, Serializer};
-
 use rocking_wall::simulation::{Outputs, Simulation, segment_of};
 use rocking_wall::solver::{Demands, Work};
 use rocking_wall::wall::{Sides, Support, Warning};
+use serde::{Serialize, Serializer};
 
 use crate::{Scene, SceneError};
 

@@ -2,10 +2,9 @@
 
 use files::{Described, Groups, Schema, Tables, list, names, object, one_of, positive, several, with};
 use fmu_export::{Kind, Variable, VariableId};
-use toml::Value;
-
 use rocking_wall::variables::{GROUPS, IntegerVariable, RealVariable};
 use rocking_wall::wall::{Bar, BarNumber, Kinematics};
+use toml::Value;
 
 use crate::body::{BODY, LOAD, OPENING, PART, describe_body};
 use crate::curve::CurveTable;

@@ -7,11 +7,10 @@ use std::f64::consts::TAU;
 
 use files::{FileError, Place, tables};
 use ground_motion::{GroundMotion, GroundMotionError, Storey, Storeys};
-use toml::Spanned;
-
 use rocking_wall::choices::Mechanism;
 use rocking_wall::simulation::Excitation;
 use rocking_wall::wall::{Usual, Wall, Warning};
+use toml::Spanned;
 
 use crate::error::SceneError;
 

@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use fmu_export::VariableId as _;
-
 use rocking_wall::variables::GROUPS;
 use rocking_wall::wall::{
     Bar, Hollow, Kinematics, Load, OF_RECTANGLE, Opening, Parameters, Part, Profile, is_computable, usage,

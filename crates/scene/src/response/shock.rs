@@ -1,9 +1,8 @@
 //! The shocks of a sequence of records, each with its demands.
 
-use serde::Serialize;
-
 use rocking_wall::simulation::{Excitation, Progress, RunError, Simulation, segment_of};
 use rocking_wall::solver::{Demands, Peaks, State, TieDemands};
+use serde::Serialize;
 
 use crate::Scene;
 
