@@ -86,7 +86,7 @@ fn browser() -> Option<PathBuf> {
 
 /// Installs and builds what the later parts need.
 fn prepare() {
-    for name in ["tests", "maturin", "wheel", "bare", "masters", "clang"] {
+    for name in ["tests", "maturin", "wheel", "bare", "clang"] {
         let _ = Environment::of(name);
     }
     if playground::check_target().is_ok() {
@@ -205,13 +205,10 @@ fn python_package() -> Result<()> {
     succeed(&mut pytest, "see the failures above")
 }
 
-/// Tests wall and floor in masters from `PyPI`, in an environment of their own, because not every platform
-/// has all of them.
+/// Tests wall and floor in masters from `PyPI`.
 fn masters() -> Result<()> {
     let (unit, floor, wall) = (packed(fmu::WALL)?, packed(fmu::FLOOR)?, programs().join("wall"));
-    let missing = |message| format!("not run: FMPy, Ecos, libcosim and the container are missing: {message}");
-    let python = Environment::of("masters").map_err(missing)?;
-    let mut pytest = pytest(&python, "tests/masters", None);
+    let mut pytest = pytest(&Environment::of("tests")?, "tests/masters", None);
     pytest.env("ROCKING_WALL_FMU", unit).env("ROCKING_FLOOR_FMU", floor).env("ROCKING_WALL_BIN", wall);
     succeed(&mut pytest, "see the failures above")
 }

@@ -31,11 +31,12 @@ impl<O: Observer> Lanes<'_, O> {
     }
 
     /// Runs everything to the end. Runs on the same kind of branch step together (`round`) until one needs
-    /// work of its own. Returns what became of each.
+    /// work of its own; `watch` is shown which lanes wait then. Returns what became of each.
     #[inline(always)]
     pub(crate) fn side_by_side(
         mut self,
         together: Stepping,
+        watch: &mut dyn FnMut(Waiting),
         round: impl Fn(&mut Self, u8) -> Waiting,
     ) -> Vec<Result<Outcome, SolverError>> {
         self.together = Some(together);
@@ -43,7 +44,9 @@ impl<O: Observer> Lanes<'_, O> {
             self.pass = pass;
             let mut busy = (0..WIDTH).fold(0, |busy, lane| busy | u8::from(self.fill(lane)) << lane);
             while busy != 0 {
-                let Waiting { ended, to_resolve } = round(&mut self, busy);
+                let waiting = round(&mut self, busy);
+                watch(waiting);
+                let Waiting { ended, to_resolve } = waiting;
                 for lane in each(ended | to_resolve) {
                     let goes = to_resolve >> lane & 1 == 0 || self.resolve(lane);
                     if !(goes && self.alone(lane) || self.fill(lane)) {

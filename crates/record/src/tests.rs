@@ -1,7 +1,7 @@
-//! Runs side by side beside runs by themselves, and numbers side by side beside single ones, with every
-//! vector of the processor.
+//! Runs side by side beside runs by themselves, with every vector of the processor that has at least AVX2:
+//! with others no runs go side by side.
 
-use fearless_simd::{Level, Simd};
+use fearless_simd::Level;
 use rocking_wall::choices::{DampingModel, ForceLaw, Impact};
 use rocking_wall::solver::{Memo, Motion, Peaks, State, Work};
 use rocking_wall::wall::{Parameters, Support};
@@ -10,12 +10,12 @@ use crate::blocks::Blocks;
 use crate::common::Common;
 use crate::forcing::Forcing;
 use crate::lanes::{Block, Lanes, Waiting};
-use crate::number::Vectors;
-use crate::number::{BranchRow, Eight, LaneRow, MOST_BRANCHES, Number, WIDTH};
+use crate::number::{MOST_BRANCHES, Vectors};
 use crate::run::{BatchRun, NoObserver, Outcome, RunEnd, RunStart};
 use crate::solver::RecordSolver;
-use crate::together::in_lanes;
+use crate::together::follow;
 
+mod numbers;
 mod peaks;
 mod together;
 mod work;
@@ -53,23 +53,27 @@ fn whole(solver: &RecordSolver<'_>, start: RunStart, forcing: Forcing<'_>) -> Ou
     solver.run(start, forcing, RunEnd::OfRecord).expect("a bounded motion")
 }
 
-/// Moves walls side by side with the vectors that every processor has.
-fn narrow(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
-    let record = Blocks::on(solver, forcing, Vectors::widest());
+/// Moves walls side by side with the widest vectors.
+fn side_by_side(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
+    let record = Blocks::for_many(solver, forcing);
     let kind = record.common(solver).expect("a wall for lanes");
     let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
-    followed(kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver), &|waiting| waiting)
+    followed(kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver), &mut |_| ())
 }
 
-/// Follows runs with the vectors that every processor has. `see` is a reference, so that all tests share one
-/// instance, which takes seconds to compile.
-fn followed(
-    kind: Common<'_>,
-    lanes: Lanes<'_, NoObserver>,
-    see: &dyn Fn(Waiting) -> Waiting,
-) -> Vec<Outcome> {
-    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
-    in_lanes(simd, kind, lanes, see).into_iter().collect::<Result<_, _>>().expect("bounded motions")
+/// Follows runs with the widest vectors, and shows `watch` which lanes wait after each round.
+fn followed(kind: Common<'_>, lanes: Lanes<'_, NoObserver>, watch: &mut dyn FnMut(Waiting)) -> Vec<Outcome> {
+    let widest = Vectors::widest().expect("a processor with AVX2, without which no runs go side by side");
+    follow(Some((widest, kind)), lanes, watch).into_iter().collect::<Result<_, _>>().expect("bounded motions")
+}
+
+/// All vectors of the processor.
+fn all_vectors() -> Vec<Vectors> {
+    let level = Level::new();
+    [level.as_avx2().map(Vectors::Avx2), level.as_avx512().map(Vectors::Avx512)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Factors of the forcing, more than there are lanes.
@@ -88,16 +92,19 @@ fn runs_do_not_depend_on_the_processor() {
         let samples = shaking();
         let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
         let starts = starts(&motion);
-        let portable = narrow(&solver, samples, &starts);
-        let level = Level::new();
-        let wide = [level.as_avx2().map(Vectors::Avx2), level.as_avx512().map(Vectors::Avx512)];
-        for vectors in wide.into_iter().flatten() {
+        let widest = side_by_side(&solver, samples, &starts);
+        for vectors in all_vectors() {
             let batch = solver.batch_on(samples, Some(vectors));
             assert!(batch.is_side_by_side());
-            assert_eq!(batch.run(&starts, RunEnd::OfRecord).expect("bounded motions"), portable);
+            assert_eq!(batch.run(&starts, RunEnd::OfRecord).expect("bounded motions"), widest);
         }
-        let corners: u64 = portable.iter().map(|outcome| outcome.work.corners).sum();
-        let overturned = portable.iter().filter(|outcome| outcome.overturning.is_some()).count();
+        if model == DampingModel::ConstantCoefficient {
+            // as on a processor that has none
+            let alone: Vec<_> = starts.iter().map(|&start| whole(&solver, start, samples)).collect();
+            assert_eq!(alone, widest);
+        }
+        let corners: u64 = widest.iter().map(|outcome| outcome.work.corners).sum();
+        let overturned = widest.iter().filter(|outcome| outcome.overturning.is_some()).count();
         assert!(corners > 500 && (1..20).contains(&overturned), "{corners} corners, {overturned} overturned");
     }
 }
@@ -111,7 +118,7 @@ fn steps_with_several_corners_are_those_of_single_runs() {
         let samples = &shaking()[..2000];
         let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(samples));
         let starts = starts(&motion);
-        for (start, lane) in starts.iter().zip(narrow(&solver, samples, &starts)) {
+        for (start, lane) in starts.iter().zip(side_by_side(&solver, samples, &starts)) {
             let single = whole(&solver, *start, samples);
             assert_eq!(lane, single);
         }
@@ -131,7 +138,7 @@ fn motions_that_grow_at_the_end_of_a_block_are_those_of_single_runs() {
         let grown = shaken.map(|(n, p)| if n + still > 256 { p } else { 0.05 * p });
         let samples: Vec<f64> = std::iter::repeat_n(0.0, still).chain(grown).collect();
         let forcing = Forcing::Samples(&samples);
-        for (start, lane) in starts.iter().zip(narrow(&solver, forcing, &starts)) {
+        for (start, lane) in starts.iter().zip(side_by_side(&solver, forcing, &starts)) {
             assert_eq!(lane, whole(&solver, *start, forcing), "{still}");
         }
     }
@@ -160,8 +167,8 @@ fn extremes_before_a_corner_are_found() {
         for speed in (0..12).map(|i| 0.25 * f64::from(i)).take_while(|speed| 0.5 * speed * speed < distance) {
             let turning = start(side, corner - distance * pull * step * step, speed * pull * step);
             let starts: Vec<_> = std::iter::once(turning).chain(others.clone()).collect();
-            let alone = narrow(&solver, still, &[turning])[0];
-            assert_eq!(alone, narrow(&solver, still, &starts)[0]);
+            let alone = side_by_side(&solver, still, &[turning])[0];
+            assert_eq!(alone, side_by_side(&solver, still, &starts)[0]);
             assert_eq!(alone, whole(&solver, turning, still));
             let [found, wanted] = [alone.state, searched(&motion, turning, &[0.0; 300], step).0]
                 .map(|State { peaks: Peaks { positive, negative }, .. }| [positive, negative]);
@@ -257,7 +264,8 @@ fn work_is_counted_as_by_the_general_search() {
     for (motion, least) in [(losing(0.018, DampingModel::None, Impact::Restitution), 50), (rigid(), 500)] {
         let samples = &shaking()[..1000];
         let (solver, forcing, mut impacts) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(samples), 0);
-        for (start, lane) in starts(&motion).into_iter().zip(narrow(&solver, forcing, &starts(&motion))) {
+        for (start, lane) in starts(&motion).into_iter().zip(side_by_side(&solver, forcing, &starts(&motion)))
+        {
             assert_eq!(lane.work, searched(&motion, start, samples, 5e-3).1);
             impacts += lane.work.impacts;
         }
@@ -316,57 +324,6 @@ fn an_observed_run_is_the_same_run() {
                 }
             }
         }
-    }
-}
-
-/// Numbers of lanes, ordinary and not, and their branches.
-const ROWS: [LaneRow; 3] = [
-    [1.5, -2.25, 1e-300, -7e200, 0.1, f64::INFINITY, -3.0, 1.0 / 3.0],
-    [0.3, -2.25, 3e-310, 9e150, -0.7, 2.0, f64::NEG_INFINITY, 1e17],
-    [0.0, 7.0, 3.0, 3.0, 1.0, 6.0, 2.0, 5.0],
-];
-
-/// Applies each operation of a number to the lanes from `first` on; returns the bits of the results, lane by
-/// lane.
-fn operations<N: Number>(token: N::Token, first: usize) -> Vec<Vec<u64>> {
-    let [a, b, branch] = ROWS.map(|row| N::load(token, &row, first));
-    let branches: BranchRow = [[0.1, 1.2, 2.3, 3.4, 4.5, 5.6, 6.7, 7.8], [0.0; WIDTH]];
-    let (below, at_most) = (a.below(b), a.at_most(b));
-    let given = N::mask(token, 0b1011_0101 >> first);
-    let [zipped, other] = N::unzip(token, |lane| [ROWS[0][first + lane], ROWS[1][first + lane]]);
-    let mut stored = [0.0; WIDTH];
-    (a - b).store(&mut stored, first);
-    let masks = [below, at_most, given, !below, given & at_most, given | below];
-    let numbers = [a + b, a - b, a * b, a / b, a + 0.3, a * 0.3, -a, a.abs(), a.abs().sqrt()];
-    let more = [a.max(b), a.min(b), a.like(0.7), N::splat(token, -0.2), zipped, other];
-    let of_lanes = N::of_lanes(token, |lane| stored[first + lane]);
-    let found = N::look_up(token, &branches, branch.branches());
-    let chosen = masks.map(|mask| N::select(mask, a, b));
-    let lanes = |number: N| (0..N::LANES).map(|lane| number.lane(lane).to_bits()).collect();
-    let bits = |mask| (0..N::LANES).map(|lane| u64::from(N::bits(mask) >> lane & 1)).collect();
-    let numbers = numbers.into_iter().chain(more).chain([of_lanes, found]).chain(chosen);
-    numbers.map(lanes).chain(masks.map(bits)).collect()
-}
-
-/// Operations on eight numbers give, lane by lane, the bits of those on single ones.
-fn check_lanes<S: Simd>(simd: S) {
-    let eight = operations::<Eight<S, true>>(simd, 0);
-    for lane in 0..WIDTH {
-        for (n, (eight, single)) in eight.iter().zip(operations::<f64>((), lane)).enumerate() {
-            assert_eq!(eight[lane], single[0], "operation {n} in lane {lane}");
-        }
-    }
-}
-
-#[test]
-fn numbers_side_by_side_are_single_numbers() {
-    let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
-    check_lanes(simd);
-    if let Some(simd) = Level::new().as_avx2() {
-        check_lanes(simd);
-    }
-    if let Some(simd) = Level::new().as_avx512() {
-        check_lanes(simd);
     }
 }
 

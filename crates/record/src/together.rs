@@ -65,57 +65,61 @@ pub(crate) fn run_together_on(
     for (kind, numbers) in kinds {
         let given: Vec<_> = numbers.iter().map(|&number| runs[number]).collect();
         let lanes = Lanes::new(&given, end, NoObserver);
-        outcomes.extend(numbers.into_iter().zip(follow(vectors.zip(kind), lanes)));
+        outcomes.extend(numbers.into_iter().zip(follow(vectors.zip(kind), lanes, &mut |_| ())));
     }
     outcomes.sort_by_key(|(number, _)| *number);
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
 }
 
-/// Follows runs, side by side with some vectors or one by one.
-fn follow(
+/// Follows runs, side by side with some vectors or one by one. `watch` is shown which lanes wait after each
+/// round.
+pub(crate) fn follow(
     side_by_side: Option<(Vectors, Common<'_>)>,
     lanes: Lanes<'_, NoObserver>,
+    watch: &mut dyn FnMut(Waiting),
 ) -> Vec<Result<Outcome, SolverError>> {
-    #[cfg(target_arch = "x86_64")]
-    let unseen = |waiting| waiting;
     match side_by_side {
         #[cfg(target_arch = "x86_64")]
-        Some((Vectors::Avx2(simd), kind)) => in_lanes(simd, kind, lanes, unseen),
+        Some((Vectors::Avx2(simd), kind)) => in_lanes(simd, kind, lanes, watch),
         #[cfg(target_arch = "x86_64")]
-        Some((Vectors::Avx512(simd), kind)) => in_lanes(simd, kind, lanes, unseen),
+        Some((Vectors::Avx512(simd), kind)) => in_lanes(simd, kind, lanes, watch),
         _ => lanes.one_by_one(),
     }
 }
 
-/// Follows runs side by side; `see` is shown which lanes wait after each call, and returns it.
-pub(crate) fn in_lanes<S: Simd>(
+/// Follows runs side by side.
+fn in_lanes<S: Simd>(
     simd: S,
     kind: Common<'_>,
     lanes: Lanes<'_, NoObserver>,
-    see: impl Fn(Waiting) -> Waiting,
+    watch: &mut dyn FnMut(Waiting),
 ) -> Vec<Result<Outcome, SolverError>> {
     simd.vectorize(
         #[inline(always)]
         || match kind {
             Common::Prepared(_) => lanes.side_by_side(
                 Stepping::Affine,
+                watch,
                 #[inline(always)]
-                |lanes, busy| see(lanes.affine_steps::<Eight<S, true>>(simd, 0, busy)),
+                |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy),
             ),
             Common::Affine { .. } => lanes.side_by_side(
                 Stepping::Affine,
+                watch,
                 #[inline(always)]
-                |lanes, busy| see(lanes.affine_steps::<Eight<S, false>>(simd, 0, busy)),
+                |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy),
             ),
             Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(
                 Stepping::Curved,
+                watch,
                 #[inline(always)]
-                |lanes, busy| see(lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy)),
+                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy),
             ),
             Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(
                 Stepping::Curved,
+                watch,
                 #[inline(always)]
-                |lanes, busy| see(lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy)),
+                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy),
             ),
         },
     )

@@ -24,10 +24,8 @@ fn parts(samples: &[f64]) -> Vec<Blocks<'_>> {
 }
 
 /// All vectors of the processor, and none.
-fn all_vectors() -> Vec<Option<Vectors>> {
-    let level = Level::new();
-    let wide = [level.as_avx2().map(Vectors::Avx2), level.as_avx512().map(Vectors::Avx512)];
-    wide.into_iter().flatten().map(Some).chain([None]).collect()
+fn vectors_and_none() -> impl Iterator<Item = Option<Vectors>> {
+    all_vectors().into_iter().map(Some).chain([None])
 }
 
 /// With constant damping a run among others has the bits of a run by itself, wherever it ends.
@@ -51,7 +49,7 @@ fn runs_with_constant_damping_are_those_by_themselves() {
         let alone: Vec<_> = runs.iter().map(alone).collect();
         let overturned = alone.iter().filter(|outcome| outcome.overturning.is_some()).count();
         assert!((5..runs.len() - 5).contains(&overturned), "{overturned}");
-        for vectors in all_vectors() {
+        for vectors in vectors_and_none() {
             let together = run_together_on(&runs, end, vectors);
             for (number, (together, alone)) in together.into_iter().zip(&alone).enumerate() {
                 assert_eq!(together.as_ref(), Ok(alone), "run {number}, {end:?}, {vectors:?}");
@@ -68,7 +66,7 @@ fn prepared_records_change_no_bit() {
     let samples = shaking();
     let (solvers, records): (Vec<_>, _) =
         (motions.iter().map(|motion| RecordSolver::new(motion, 5e-3)).collect(), parts(&samples));
-    for vectors in all_vectors() {
+    for vectors in vectors_and_none() {
         let prepared: Vec<_> =
             records.iter().map(|record| Blocks::on(&solvers[0], record.forcing, vectors)).collect();
         let is_prepared =
@@ -97,7 +95,7 @@ fn runs_with_secant_damping_are_those_of_batches() {
     let (solvers, records): (Vec<_>, _) =
         (motions.iter().map(|motion| RecordSolver::new(motion, 5e-3)).collect(), parts(&samples));
     let runs = mixed(&solvers, &records);
-    for vectors in all_vectors() {
+    for vectors in vectors_and_none() {
         let together = run_together_on(&runs, RunEnd::OfRecord, vectors);
         for (run, together) in runs.iter().zip(together) {
             let batch = run.solver.batch_on(run.record.forcing, vectors);

@@ -1,8 +1,6 @@
 //! Pins the work of batches. Most errors of a bound or a guess are mended by a step of another kind, at the
 //! price of speed: only the work shows them.
 
-use std::cell::Cell;
-
 use super::*;
 
 /// What a batch takes.
@@ -17,7 +15,7 @@ struct Counts {
     overturned: usize,
 }
 
-/// Follows a wall under 21 factors by the vectors that every processor has.
+/// Follows a wall under 21 factors side by side.
 fn counts(model: DampingModel, impact: Impact) -> Counts {
     let motion = losing(0.018, model, impact);
     // rounded, so that another library of sines changes no count
@@ -27,19 +25,18 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
     let given = |start: &RunStart| BatchRun { solver: &solver, record: &record, start: *start };
     let given: Vec<_> = starts.iter().map(given).collect();
     let lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
-    let (rounds, to_resolve) = (Cell::new(0), Cell::new(0));
-    let count = |waiting: Waiting| {
-        rounds.set(rounds.get() + 1);
-        to_resolve.set(to_resolve.get() + waiting.to_resolve.count_ones());
-        waiting
+    let (mut rounds, mut to_resolve) = (0, 0);
+    let mut count = |waiting: Waiting| {
+        rounds += 1;
+        to_resolve += waiting.to_resolve.count_ones();
     };
     let kind = record.common(&solver).expect("a wall for lanes");
     assert!(!matches!(kind, Common::Affine { .. }), "the record is prepared for the wall");
-    let outcomes = followed(kind, lanes, &count);
+    let outcomes = followed(kind, lanes, &mut count);
     let sum = |of: fn(&Outcome) -> u64| outcomes.iter().map(of).sum();
     Counts {
-        rounds: rounds.get(),
-        to_resolve: to_resolve.get(),
+        rounds,
+        to_resolve,
         pieces: sum(|outcome| outcome.work.pieces),
         corners: sum(|outcome| outcome.work.corners),
         overturned: outcomes.iter().filter(|outcome| outcome.overturning.is_some()).count(),

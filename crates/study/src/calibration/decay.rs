@@ -55,7 +55,10 @@ impl Decay {
         let solver = RecordSolver::new(&self.motion, step);
         let mut sum = 0.0;
         let start = RunStart { state: self.state, factor: 1.0 };
-        let mut add = |index: usize, u: f64, _| sum += (reference[index - 1] - u.abs() / u_ins.of(u)).powi(2);
+        let mut add = |index: usize, u: f64, _| {
+            let difference = reference[index - 1] - u.abs() / u_ins.of(u);
+            sum += difference * difference;
+        };
         solver.run_observed(start, Forcing::Still(reference.len() + 1), RunEnd::OfRecord, &mut add)?;
         Ok(sum)
     }
