@@ -98,6 +98,7 @@ fn prepare() {
 fn build() -> Command {
     let mut build = cargo();
     build.env("CARGO_INCREMENTAL", "0");
+    wheel::share_extension(&mut build);
     build
 }
 

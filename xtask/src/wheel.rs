@@ -10,6 +10,9 @@ use crate::python::Environment;
 
 /// The general FMU in the package, for `rocking_wall.package`.
 const UNIT: &str = "crates/python/python/rocking_wall/wall.fmu";
+/// The Python of the extension, for pyo3. maturin would describe it in a file of its own, for which cargo would
+/// build the extension again.
+const PYTHON: &str = "crates/python/pyo3.txt";
 /// Licences of others, from the FMU's folder to that of the package.
 const LICENCES: [&str; 2] = ["modelDescription/documentation/licenses", "crates/python/licenses"];
 const TEXTS: [&str; 2] = ["MIT.txt", "Apache-2.0.txt"];
@@ -45,12 +48,20 @@ pub(crate) fn is_linked_here(platform: &Platform) -> bool {
     !platform.target.contains("windows")
 }
 
+/// Lets a job that builds for tests take the same extension as the others.
+pub(crate) fn share_extension(job: &mut Command) {
+    job.env("PYO3_CONFIG_FILE", root().join(PYTHON));
+}
+
 /// Builds the wheel with a profile and a general FMU, for this machine or for a platform, and returns its
 /// path.
 pub(crate) fn build(profile: &str, unit: &Path, platform: Option<&Platform>) -> Result<PathBuf> {
     let folder = target().join("wheels").join(platform.map_or(profile, |platform| platform.fmi3));
     let mut build = maturin("build", unit)?;
     build.args(["--locked", "--profile", profile, "--generate-stubs"]);
+    if profile == "dev" {
+        share_extension(&mut build);
+    }
     if let Some(platform) = platform {
         build.args(["--zig", "--target", platform.target]);
         if platform.target.ends_with("linux-gnu") {
