@@ -10,8 +10,8 @@ use crate::python::Environment;
 
 /// The general FMU in the package, for `rocking_wall.package`.
 const UNIT: &str = "crates/python/python/rocking_wall/wall.fmu";
-/// The Python of the extension, for pyo3. maturin would describe it in a file of its own, for which cargo would
-/// build the extension again.
+/// The Python of the extension, for pyo3. maturin would describe it in a file of its own, for which cargo
+/// would build the extension again.
 const PYTHON: &str = "crates/python/pyo3.txt";
 /// Licences of others, from the FMU's folder to that of the package.
 const LICENCES: [&str; 2] = ["modelDescription/documentation/licenses", "crates/python/licenses"];

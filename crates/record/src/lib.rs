@@ -16,17 +16,21 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `number`, `numbering`, `affine`, `forcing` | numbers of lanes, what they stand for; maps; samples |
+//! | `number`, `eight` | numbers of lanes, one by one and in vectors |
+//! | `numbering`, `affine`, `forcing` | what numbers stand for; maps; samples |
 //! | `table`, `solver` | the branches of a wall, prepared for a step |
 //! | `responses`, `common`, `blocks`, `run` | a record, prepared; a run, its end and its outcome |
 //! | `lanes`, `branches`, `line` | the runs in lanes, and the branches that they are on |
 //! | `corners`, `turns`, `plain`, `regularised`, `curved` | the steps |
-//! | `schedule`, `together`, `batch` | which lane takes which step, which run which lane |
+//! | `schedule`, `wide`, `together`, `batch` | which lane takes which step, which run which lane |
 #![allow(
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"
 )]
-#![cfg_attr(not(target_arch = "x86_64"), allow(dead_code, reason = "other processors have no wide vectors"))]
+#![cfg_attr(
+    not(target_arch = "x86_64"),
+    allow(dead_code, unused_variables, reason = "other processors have no wide vectors")
+)]
 
 mod affine;
 mod batch;
@@ -35,6 +39,8 @@ mod branches;
 mod common;
 mod corners;
 mod curved;
+#[cfg(target_arch = "x86_64")]
+mod eight;
 mod forcing;
 mod lanes;
 mod line;
@@ -51,6 +57,8 @@ mod table;
 mod tests;
 mod together;
 mod turns;
+#[cfg(target_arch = "x86_64")]
+mod wide;
 
 pub use batch::{Batch, LANES};
 pub use blocks::Blocks;

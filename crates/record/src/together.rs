@@ -1,14 +1,13 @@
 //! Runs of any walls through any records together.
 
-use fearless_simd::Simd;
 use rocking_wall::solver::SolverError;
-use rocking_wall::solver::secant::{ByRatio, ByStiffness};
 
 use crate::common::Common;
 use crate::lanes::{Lanes, Waiting};
-use crate::number::{Eight, Vectors};
+use crate::number::Vectors;
 use crate::run::{BatchRun, NoObserver, Outcome, RunEnd};
-use crate::table::{Law, Stepping};
+#[cfg(target_arch = "x86_64")]
+use crate::wide::in_lanes;
 
 /// Moves walls through records, each run as if it were alone; returns what became of each, in their order.
 ///
@@ -85,42 +84,4 @@ pub(crate) fn follow(
         Some((Vectors::Avx512(simd), kind)) => in_lanes(simd, kind, lanes, watch),
         _ => lanes.one_by_one(),
     }
-}
-
-/// Follows runs side by side.
-fn in_lanes<S: Simd>(
-    simd: S,
-    kind: Common<'_>,
-    lanes: Lanes<'_, NoObserver>,
-    watch: &mut dyn FnMut(Waiting),
-) -> Vec<Result<Outcome, SolverError>> {
-    simd.vectorize(
-        #[inline(always)]
-        || match kind {
-            Common::Prepared(_) => lanes.side_by_side(
-                Stepping::Affine,
-                watch,
-                #[inline(always)]
-                |lanes, busy| lanes.affine_steps::<Eight<S, true>>(simd, 0, busy),
-            ),
-            Common::Affine { .. } => lanes.side_by_side(
-                Stepping::Affine,
-                watch,
-                #[inline(always)]
-                |lanes, busy| lanes.affine_steps::<Eight<S, false>>(simd, 0, busy),
-            ),
-            Common::Curved { law: Law::Ratio, .. } => lanes.side_by_side(
-                Stepping::Curved,
-                watch,
-                #[inline(always)]
-                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByRatio>(simd, 0, busy),
-            ),
-            Common::Curved { law: Law::Stiffness, .. } => lanes.side_by_side(
-                Stepping::Curved,
-                watch,
-                #[inline(always)]
-                |lanes, busy| lanes.take_parts::<Eight<S, false>, ByStiffness>(simd, 0, busy),
-            ),
-        },
-    )
 }

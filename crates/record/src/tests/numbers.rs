@@ -3,7 +3,8 @@
 use fearless_simd::Simd;
 
 use super::*;
-use crate::number::{BranchRow, Eight, LaneRow, Number, WIDTH};
+use crate::eight::Eight;
+use crate::number::{BranchRow, LaneRow, Number, WIDTH};
 
 /// Numbers of lanes, ordinary and not, and their branches.
 const ROWS: [LaneRow; 3] = [

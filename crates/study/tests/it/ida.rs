@@ -135,8 +135,9 @@ fn curves_together_are_those_by_themselves() {
     };
     let walls = || walls().into_iter().chain([NamedWall::new("tied", tied.clone())]).collect();
     let mut overturned = 0;
-    let stepping = Levels::ToOverturning { step: 0.5, top: 12.0 };
-    for levels in [Levels::Cloud { scale: 3.0 }, Levels::Grid(vec![1.0, 4.0, 9.0]), stepping, HUNT] {
+    let stepping = Levels::ToOverturning { step: 1.0, top: 12.0 };
+    let hunt = Levels::HuntAndFill { first: 0.5, increase: 0.5, top: 60.0, resolution: 0.1, gap: 0.5 };
+    for levels in [Levels::Cloud { scale: 3.0 }, Levels::Grid(vec![1.0, 4.0, 9.0]), stepping, hunt] {
         let measure = IntensityMeasure::default();
         let study = Study::new(walls(), all.clone(), Model::figure_15(), measure, levels).unwrap();
         assert!(!study.wall(2, 0).has_equal_sides());
