@@ -94,7 +94,8 @@ fn prepare() {
     }
 }
 
-/// Prepares a build without incremental compilation, whose files take a tenth of the time to write.
+/// Prepares a build for the tests, without incremental compilation, whose files take a tenth of the time to
+/// write.
 fn build() -> Command {
     let mut build = cargo();
     build.env("CARGO_INCREMENTAL", "0");

@@ -12,7 +12,7 @@ use crate::python::Environment;
 const UNIT: &str = "crates/python/python/rocking_wall/wall.fmu";
 /// The Python of the extension, for pyo3. maturin would describe it in a file of its own, for which cargo
 /// would build the extension again.
-const PYTHON: &str = "crates/python/pyo3.txt";
+const PYTHON: &str = "crates/python/pyo3-config.txt";
 /// Licences of others, from the FMU's folder to that of the package.
 const LICENCES: [&str; 2] = ["modelDescription/documentation/licenses", "crates/python/licenses"];
 const TEXTS: [&str; 2] = ["MIT.txt", "Apache-2.0.txt"];
@@ -48,7 +48,7 @@ pub(crate) fn is_linked_here(platform: &Platform) -> bool {
     !platform.target.contains("windows")
 }
 
-/// Lets a job that builds for tests take the same extension as the others.
+/// Describes Python to pyo3 as in every other job of the tests, so that the extension is built once.
 pub(crate) fn share_extension(job: &mut Command) {
     job.env("PYO3_CONFIG_FILE", root().join(PYTHON));
 }

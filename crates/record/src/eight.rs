@@ -1,4 +1,4 @@
-//! Eight numbers side by side, in the vectors of processors that have wide ones.
+//! Eight numbers side by side, in vectors.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -1,5 +1,5 @@
-//! Runs side by side beside runs by themselves, with every vector of the processor that has at least AVX2:
-//! with others no runs go side by side.
+//! Runs side by side beside runs by themselves, with each of AVX2 and AVX-512 that the processor has; without
+//! either, no runs go side by side.
 
 use fearless_simd::Level;
 use rocking_wall::choices::{DampingModel, ForceLaw, Impact};
@@ -53,18 +53,13 @@ fn whole(solver: &RecordSolver<'_>, start: RunStart, forcing: Forcing<'_>) -> Ou
     solver.run(start, forcing, RunEnd::OfRecord).expect("a bounded motion")
 }
 
-/// Moves walls side by side with the widest vectors.
+/// Moves walls side by side with the widest vectors, or one by one on a processor without wide ones.
 fn side_by_side(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
     let record = Blocks::for_many(solver, forcing);
     let kind = record.common(solver).expect("a wall for lanes");
     let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
-    followed(kind, Lanes::new(&given, RunEnd::OfRecord, NoObserver), &mut |_| ())
-}
-
-/// Follows runs with the widest vectors, and shows `watch` which lanes wait after each round.
-fn followed(kind: Common<'_>, lanes: Lanes<'_, NoObserver>, watch: &mut dyn FnMut(Waiting)) -> Vec<Outcome> {
-    let widest = Vectors::widest().expect("a processor with AVX2, without which no runs go side by side");
-    follow(Some((widest, kind)), lanes, watch).into_iter().collect::<Result<_, _>>().expect("bounded motions")
+    let (kind, lanes) = (Vectors::widest().zip(Some(kind)), Lanes::new(&given, RunEnd::OfRecord, NoObserver));
+    follow(kind, lanes, &mut |_| ()).into_iter().collect::<Result<_, _>>().expect("bounded motions")
 }
 
 /// All vectors of the processor.
@@ -82,7 +77,9 @@ fn starts(motion: &Motion) -> Vec<RunStart> {
     (0..21).map(|i| RunStart { state, factor: 1.3 - 0.06 * f64::from(i) }).collect()
 }
 
-/// Side by side, with many corners passed, all vectors that the processor has give the same bits.
+/// Side by side, with many corners passed, all vectors that the processor has give the same bits, and with
+/// constant damping those of runs by themselves. With secant damping only a processor that has AVX-512, too,
+/// can tell a difference.
 #[test]
 fn runs_do_not_depend_on_the_processor() {
     let models =
@@ -279,14 +276,14 @@ fn what_does_not_suit_goes_one_by_one() {
     let samples = shaking();
     let all = Forcing::Samples(&samples);
     let (soft, stiff) = (motion(0.018), motion(1e-5));
-    let side_by_side = |motion: &Motion, samples, vectors| {
+    let goes_side_by_side = |motion: &Motion, samples, vectors| {
         RecordSolver::new(motion, 5e-3).batch_on(samples, vectors).is_side_by_side()
     };
     let widest = Vectors::widest();
-    assert_eq!(side_by_side(&soft, all, widest), widest.is_some());
-    assert!(!side_by_side(&soft, all, None));
-    assert!(!side_by_side(&stiff, all, widest));
-    assert!(!side_by_side(&soft, Forcing::Samples(&samples[..15]), widest));
+    assert_eq!(goes_side_by_side(&soft, all, widest), widest.is_some());
+    assert!(!goes_side_by_side(&soft, all, None));
+    assert!(!goes_side_by_side(&stiff, all, widest));
+    assert!(!goes_side_by_side(&soft, Forcing::Samples(&samples[..15]), widest));
     let solver = RecordSolver::new(&stiff, 5e-3);
     let starts = starts(&stiff);
     let together = solver.batch(all).run(&starts, RunEnd::OfRecord).expect("bounded motions");

@@ -72,6 +72,7 @@ pub(crate) fn run_together_on(
 
 /// Follows runs, side by side with some vectors or one by one. `watch` is shown which lanes wait after each
 /// round.
+#[cfg_attr(not(target_arch = "x86_64"), allow(unused_variables, reason = "no rounds to watch"))]
 pub(crate) fn follow(
     side_by_side: Option<(Vectors, Common<'_>)>,
     lanes: Lanes<'_, NoObserver>,

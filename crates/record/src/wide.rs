@@ -1,4 +1,4 @@
-//! Runs side by side in the vectors of processors that have wide ones.
+//! Runs side by side, compiled for each width of vectors.
 
 use fearless_simd::Simd;
 use rocking_wall::solver::SolverError;

@@ -32,7 +32,9 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
     };
     let kind = record.common(&solver).expect("a wall for lanes");
     assert!(!matches!(kind, Common::Affine { .. }), "the record is prepared for the wall");
-    let outcomes = followed(kind, lanes, &mut count);
+    let widest = Vectors::widest().expect("a processor with AVX2: rounds are of runs side by side");
+    let outcomes = follow(Some((widest, kind)), lanes, &mut count);
+    let outcomes: Vec<_> = outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions");
     let sum = |of: fn(&Outcome) -> u64| outcomes.iter().map(of).sum();
     Counts {
         rounds,

@@ -57,6 +57,7 @@ impl Decay {
         let start = RunStart { state: self.state, factor: 1.0 };
         let mut add = |index: usize, u: f64, _| {
             let difference = reference[index - 1] - u.abs() / u_ins.of(u);
+            // a call of powi takes longer where this crate is not optimised
             sum += difference * difference;
         };
         solver.run_observed(start, Forcing::Still(reference.len() + 1), RunEnd::OfRecord, &mut add)?;

@@ -136,6 +136,7 @@ fn curves_together_are_those_by_themselves() {
     let walls = || walls().into_iter().chain([NamedWall::new("tied", tied.clone())]).collect();
     let mut overturned = 0;
     let stepping = Levels::ToOverturning { step: 1.0, top: 12.0 };
+    // coarser than `HUNT`: fewer runs of the same code
     let hunt = Levels::HuntAndFill { first: 0.5, increase: 0.5, top: 60.0, resolution: 0.1, gap: 0.5 };
     for levels in [Levels::Cloud { scale: 3.0 }, Levels::Grid(vec![1.0, 4.0, 9.0]), stepping, hunt] {
         let measure = IntensityMeasure::default();

@@ -107,7 +107,7 @@ fn bad_requests_are_refused() {
 fn the_pulses_of_a_record_are_found() {
     let folder = folder("pulse_of");
     succeed(&folder, &["record", "--synthetic", "--samples", "r.csv"]);
-    // a pulse is compared with every sample
+    // 8 s are enough: the search compares each pulse with every sample
     let start: Vec<_> = content(&folder, "r.csv").lines().take(801).map(str::to_owned).collect();
     std::fs::write(folder.join("r.csv"), start.join("\n")).unwrap();
     let command = ["study", "spectrum", "--pulse-of", "r.csv", "--scale", "0.8"];
