@@ -55,11 +55,9 @@ fn whole(solver: &RecordSolver<'_>, start: RunStart, forcing: Forcing<'_>) -> Ou
 
 /// Moves walls side by side with the widest vectors, or one by one on a processor without wide ones.
 fn side_by_side(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunStart]) -> Vec<Outcome> {
-    let record = Blocks::for_many(solver, forcing);
-    let kind = record.common(solver).expect("a wall for lanes");
-    let given: Vec<_> = starts.iter().map(|&start| BatchRun { solver, record: &record, start }).collect();
-    let (kind, lanes) = (Vectors::widest().zip(Some(kind)), Lanes::new(&given, RunEnd::OfRecord, NoObserver));
-    follow(kind, lanes, &mut |_| ()).into_iter().collect::<Result<_, _>>().expect("bounded motions")
+    let batch = solver.batch(forcing);
+    assert_eq!(batch.is_side_by_side(), Vectors::widest().is_some(), "a wall for lanes");
+    batch.run(starts, RunEnd::OfRecord).expect("bounded motions")
 }
 
 /// All vectors of the processor.
