@@ -76,7 +76,8 @@ impl RecordSolver<'_> {
     }
 
     /// Prepares a record for some vectors; `None` lets runs go one by one.
-    pub(crate) fn batch_on<'b>(&'b self, forcing: Forcing<'b>, vectors: Option<Vectors>) -> Batch<'b> {
+    #[doc(hidden)]
+    pub fn batch_on<'b>(&'b self, forcing: Forcing<'b>, vectors: Option<Vectors>) -> Batch<'b> {
         Batch { solver: self, record: Blocks::on(self, forcing, vectors), vectors }
     }
 }

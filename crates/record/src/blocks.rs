@@ -45,13 +45,19 @@ impl<'a> Blocks<'a> {
     }
 
     /// Prepares a forcing for many runs of one wall with some vectors.
-    pub(crate) fn on(solver: &'a RecordSolver<'a>, forcing: Forcing<'a>, vectors: Option<Vectors>) -> Self {
+    #[doc(hidden)]
+    pub fn on(solver: &'a RecordSolver<'a>, forcing: Forcing<'a>, vectors: Option<Vectors>) -> Self {
         let record = Self::new(forcing);
         let responses = match vectors.and_then(|_| Common::of(solver, record.count())) {
             Some(Common::Affine { .. }) => Responses::new(solver, forcing),
             _ => None,
         };
         Self { responses, ..record }
+    }
+
+    /// Returns the forcing.
+    pub fn forcing(&self) -> Forcing<'a> {
+        self.forcing
     }
 
     /// Returns what a run of a wall through this record has in common with others; `None` if it goes by

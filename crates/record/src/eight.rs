@@ -176,3 +176,6 @@ impl<S: Simd, const ONE_TABLE: bool> Number for Eight<S, ONE_TABLE> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -344,3 +344,6 @@ impl<O: Observer> Lanes<'_, O> {
             Outcome { state, overturning: run.overturning, work, put_to_rest: run.put_to_rest };
     }
 }
+
+#[cfg(test)]
+mod tests;

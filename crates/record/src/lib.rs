@@ -23,6 +23,7 @@
 //! | `lanes`, `branches`, `line` | the runs in lanes, and the branches that they are on |
 //! | `corners`, `turns`, `plain`, `regularised`, `curved` | the steps |
 //! | `schedule`, `wide`, `together`, `batch` | which lane takes which step, which run which lane |
+//! | `testing` | doors for the tests of runs side by side |
 #![allow(
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"
@@ -50,8 +51,8 @@ mod run;
 mod schedule;
 mod solver;
 mod table;
-#[cfg(all(test, target_arch = "x86_64"))]
-mod tests;
+#[doc(hidden)]
+pub mod testing;
 mod together;
 mod turns;
 #[cfg(target_arch = "x86_64")]

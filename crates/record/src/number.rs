@@ -12,7 +12,7 @@ use rocking_wall::solver::secant;
 /// Lanes of a vector.
 pub(crate) const WIDTH: usize = 8;
 /// Most branches of a wall whose steps are prepared.
-pub(crate) const MOST_BRANCHES: usize = 2 * WIDTH;
+pub const MOST_BRANCHES: usize = 2 * WIDTH;
 
 /// A number for each lane.
 pub(crate) type LaneRow = [f64; WIDTH];
@@ -22,16 +22,18 @@ pub(crate) type BranchRow = [LaneRow; MOST_BRANCHES / WIDTH];
 /// Vectors with which runs are faster side by side than one by one. With narrower vectors they would be
 /// slower, and the code for these would take long to build.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Vectors {
+pub enum Vectors {
+    /// Four numbers in a register.
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
+    /// Eight numbers in a register.
     #[cfg(target_arch = "x86_64")]
     Avx512(Avx512),
 }
 
 impl Vectors {
     /// Returns the widest of these vectors that the processor has; `None` if it has none.
-    pub(crate) fn widest() -> Option<Self> {
+    pub fn widest() -> Option<Self> {
         #[cfg(target_arch = "x86_64")]
         {
             let level = Level::new();
@@ -39,6 +41,18 @@ impl Vectors {
         }
         #[cfg(not(target_arch = "x86_64"))]
         None
+    }
+
+    /// Returns all of these vectors that the processor has.
+    pub fn all() -> Vec<Self> {
+        #[cfg(target_arch = "x86_64")]
+        {
+            let level = Level::new();
+            let all = [level.as_avx2().map(Self::Avx2), level.as_avx512().map(Self::Avx512)];
+            all.into_iter().flatten().collect()
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        Vec::new()
     }
 }
 

@@ -47,7 +47,7 @@ pub fn run_together(runs: &[BatchRun<'_>], end: RunEnd) -> Vec<Result<Outcome, S
 }
 
 /// Moves walls as [`run_together`] does, with some vectors; `None` lets runs go one by one.
-pub(crate) fn run_together_on(
+pub fn run_together_on(
     runs: &[BatchRun<'_>],
     end: RunEnd,
     vectors: Option<Vectors>,

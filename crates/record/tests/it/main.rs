@@ -1,23 +1,15 @@
 //! Runs side by side beside runs by themselves, with each of AVX2 and AVX-512 that the processor has; without
 //! either, no runs go side by side.
 
-use fearless_simd::Level;
+use record::testing::{MOST_BRANCHES, Vectors};
+use record::{BatchRun, Blocks, Forcing, Outcome, RecordSolver, RunEnd, RunStart};
 use rocking_wall::choices::{DampingModel, ForceLaw, Impact};
 use rocking_wall::solver::{Memo, Motion, Peaks, State, Work};
 use rocking_wall::wall::{Parameters, Support};
 
-use crate::blocks::Blocks;
-use crate::common::Common;
-use crate::forcing::Forcing;
-use crate::lanes::{Block, Lanes, Waiting};
-use crate::number::{MOST_BRANCHES, Vectors};
-use crate::run::{BatchRun, NoObserver, Outcome, RunEnd, RunStart};
-use crate::solver::RecordSolver;
-use crate::together::follow;
-
-mod numbers;
 mod peaks;
 mod together;
+#[cfg(target_arch = "x86_64")]
 mod work;
 
 /// Two sines of 30 s in steps of 5 ms, under which some of the walls overturn.
@@ -60,15 +52,6 @@ fn side_by_side(solver: &RecordSolver<'_>, forcing: Forcing<'_>, starts: &[RunSt
     batch.run(starts, RunEnd::OfRecord).expect("bounded motions")
 }
 
-/// All vectors of the processor.
-fn all_vectors() -> Vec<Vectors> {
-    let level = Level::new();
-    [level.as_avx2().map(Vectors::Avx2), level.as_avx512().map(Vectors::Avx512)]
-        .into_iter()
-        .flatten()
-        .collect()
-}
-
 /// Factors of the forcing, more than there are lanes.
 fn starts(motion: &Motion) -> Vec<RunStart> {
     let state = motion.start(0.0, 0.0, Support::default());
@@ -88,7 +71,7 @@ fn runs_do_not_depend_on_the_processor() {
         let (solver, samples) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
         let starts = starts(&motion);
         let widest = side_by_side(&solver, samples, &starts);
-        for vectors in all_vectors() {
+        for vectors in Vectors::all() {
             let batch = solver.batch_on(samples, Some(vectors));
             assert!(batch.is_side_by_side());
             assert_eq!(batch.run(&starts, RunEnd::OfRecord).expect("bounded motions"), widest);
@@ -214,32 +197,6 @@ fn extremes_after_a_corner_in_the_last_step_are_found() {
         }
     }
     assert!(turning > 100, "{turning}");
-}
-
-/// A block is searched for extremes where one may lie A h²/8 beyond the ends of its steps. A is that of plain
-/// steps or of curved branches, whichever is larger (docs/record-path.md, §5 and §7).
-#[test]
-fn blocks_are_searched_where_their_margin_exceeds_the_peaks() {
-    let (step, forcing, force) = (5e-3, 0.7, 0.9);
-    for (model, fastest) in [(DampingModel::ConstantCoefficient, 3.0), (DampingModel::ConstantRatio, 1e3)] {
-        let motion = losing(0.018, model, Impact::None);
-        let (solver, still) = (RecordSolver::new(&motion, step), Blocks::new(Forcing::Still(2)));
-        let state = motion.start(0.0, 0.0, Support::default());
-        let given = [BatchRun { solver: &solver, record: &still, start: RunStart { state, factor: 1.0 } }];
-        let lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
-        let table = &solver.table;
-        let plain = table.most_growth * 1.25 * (forcing + force);
-        let curved = table.curved_growth * (forcing + force + table.curved_damping * fastest);
-        assert_eq!(plain > curved, model == DampingModel::ConstantCoefficient);
-        let margin = plain.max(curved) * step * step / 8.0;
-        let block = Block { highest: 0.04, lowest: -0.03, fastest, forcing, ..Block::new(0, 1.0, state) };
-        let exceeds = |positive: f64, negative: f64| {
-            lanes.may_exceed(&block, &Peaks { positive: 0.04 + positive, negative: 0.03 + negative }, force)
-        };
-        // by far more than rounding, and far less than the parts of A
-        let (less, more) = (margin * (1.0 - 1e-6), margin * (1.0 + 1e-6));
-        assert!(exceeds(less, more) && exceeds(more, less) && !exceeds(more, more), "{model:?}");
-    }
 }
 
 /// Moves a wall by the general search alone.

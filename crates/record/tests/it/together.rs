@@ -1,16 +1,16 @@
 //! Runs of several walls through several records together, beside runs by themselves and batches of one wall.
 
+use record::testing::{Way, at_once, run_together_on, way};
+use record::{LANES, run_together};
+
 use super::*;
-use crate::batch::LANES;
-use crate::common::Common;
-use crate::together::run_together_on;
 
 /// Every wall through every record at a few factors, in an order that mixes all three.
 fn mixed<'a>(solvers: &'a [RecordSolver<'a>], records: &'a [Blocks<'a>]) -> Vec<BatchRun<'a>> {
     let count = solvers.len() * records.len() * 3;
     let run = |n: usize| {
         let (solver, record) = (&solvers[n % solvers.len()], &records[n / solvers.len() % records.len()]);
-        let state = solver.motion.start(0.0, 0.0, Support::default());
+        let state = solver.motion().start(0.0, 0.0, Support::default());
         let factor = [1.2, -0.8, 0.5][n * 7 % 3];
         BatchRun { solver, record, start: RunStart { state, factor } }
     };
@@ -25,7 +25,7 @@ fn parts(samples: &[f64]) -> Vec<Blocks<'_>> {
 
 /// All vectors of the processor, and none.
 fn vectors_and_none() -> impl Iterator<Item = Option<Vectors>> {
-    all_vectors().into_iter().map(Some).chain([None])
+    Vectors::all().into_iter().map(Some).chain([None])
 }
 
 /// With constant damping a run among others has the bits of a run by itself, wherever it ends.
@@ -38,15 +38,13 @@ fn runs_with_constant_damping_are_those_by_themselves() {
     let samples = shaking();
     let (solvers, records): (Vec<_>, _) =
         (motions.iter().map(|motion| RecordSolver::new(motion, 5e-3)).collect(), parts(&samples));
-    assert!(solvers.iter().any(|solver| solver.table.at_once != solvers[0].table.at_once));
-    let by_itself: Vec<_> = solvers.iter().map(|solver| records[0].common(solver).is_none()).collect();
-    assert_eq!(by_itself, [false, false, false, false, false, false, true]);
+    assert!(solvers.iter().any(|solver| at_once(solver) != at_once(&solvers[0])));
     let runs = mixed(&solvers, &records);
+    let by_itself: Vec<_> = runs[..7].iter().map(|run| way(run) == Way::Alone).collect();
+    assert_eq!(by_itself, [false, false, false, false, false, false, true]);
     for end in [RunEnd::OfRecord, RunEnd::AtOverturning, RunEnd::AtPeaks] {
-        let alone = |run: &BatchRun<'_>| {
-            Lanes::new(&[*run], end, NoObserver).one_by_one().swap_remove(0).expect("a bounded motion")
-        };
-        let alone: Vec<_> = runs.iter().map(alone).collect();
+        let alone = |run: &BatchRun<'_>| run.solver.run(run.start, run.record.forcing(), end);
+        let alone: Vec<Outcome> = runs.iter().map(alone).collect::<Result<_, _>>().expect("bounded motions");
         let overturned = alone.iter().filter(|outcome| outcome.overturning.is_some()).count();
         assert!((5..runs.len() - 5).contains(&overturned), "{overturned}");
         for vectors in vectors_and_none() {
@@ -68,13 +66,11 @@ fn prepared_records_change_no_bit() {
         (motions.iter().map(|motion| RecordSolver::new(motion, 5e-3)).collect(), parts(&samples));
     for vectors in vectors_and_none() {
         let prepared: Vec<_> =
-            records.iter().map(|record| Blocks::on(&solvers[0], record.forcing, vectors)).collect();
-        let is_prepared =
-            |run: &BatchRun<'_>| matches!(run.record.common(run.solver), Some(Common::Prepared(_)));
+            records.iter().map(|record| Blocks::on(&solvers[0], record.forcing(), vectors)).collect();
         let runs = mixed(&solvers, &prepared);
         // all but the record of four samples, for one wall of two
         let expected = if vectors.is_some() { runs.len() * 3 / 8 } else { 0 };
-        assert_eq!(runs.iter().filter(|run| is_prepared(run)).count(), expected);
+        assert_eq!(runs.iter().filter(|run| way(run) == Way::Prepared).count(), expected);
         for end in [RunEnd::OfRecord, RunEnd::AtOverturning, RunEnd::AtPeaks] {
             let wanted = run_together_on(&mixed(&solvers, &records), end, None);
             assert_eq!(run_together_on(&runs, end, vectors), wanted, "{end:?}, {vectors:?}");
@@ -98,7 +94,7 @@ fn runs_with_secant_damping_are_those_of_batches() {
     for vectors in vectors_and_none() {
         let together = run_together_on(&runs, RunEnd::OfRecord, vectors);
         for (run, together) in runs.iter().zip(together) {
-            let batch = run.solver.batch_on(run.record.forcing, vectors);
+            let batch = run.solver.batch_on(run.record.forcing(), vectors);
             let alone = batch.run(&[run.start], RunEnd::OfRecord).expect("a bounded motion")[0];
             assert_eq!(together, Ok(alone), "{vectors:?}");
         }
@@ -115,10 +111,10 @@ fn runs_do_not_depend_on_the_others() {
     let runs = mixed(&solvers, &records);
     let all = run_together_on(&runs, RunEnd::AtPeaks, Vectors::widest());
     for count in [1, 2, LANES + 1] {
-        let groups = runs.chunks(count).flat_map(|runs| crate::run_together(runs, RunEnd::AtPeaks));
+        let groups = runs.chunks(count).flat_map(|runs| run_together(runs, RunEnd::AtPeaks));
         assert_eq!(groups.collect::<Vec<_>>(), all, "{count} at a time");
     }
-    assert!(crate::run_together(&[], RunEnd::AtPeaks).is_empty());
+    assert!(run_together(&[], RunEnd::AtPeaks).is_empty());
 }
 
 /// A run that fails has its own error, and the others have their outcomes.
@@ -129,10 +125,10 @@ fn a_run_that_fails_leaves_the_others() {
     let records = parts(&samples);
     let mut runs = mixed(&solvers, &records);
     runs[4].start.factor = 1e305;
-    let outcomes = crate::run_together(&runs, RunEnd::OfRecord);
+    let outcomes = run_together(&runs, RunEnd::OfRecord);
     for (number, (run, outcome)) in runs.iter().zip(outcomes).enumerate() {
         assert_eq!(outcome.is_err(), number == 4);
-        assert_eq!(outcome, run.solver.run(run.start, run.record.forcing, RunEnd::OfRecord));
+        assert_eq!(outcome, run.solver.run(run.start, run.record.forcing(), RunEnd::OfRecord));
     }
 }
 

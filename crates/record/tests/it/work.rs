@@ -1,15 +1,14 @@
 //! Pins the work of batches. Most errors of a bound or a guess are mended by a step of another kind, at the
 //! price of speed: only the work shows them.
 
+use record::testing::{Rounds, counted};
+
 use super::*;
 
 /// What a batch takes.
 #[derive(Debug, PartialEq)]
 struct Counts {
-    /// Calls that take steps side by side, until lanes wait.
-    rounds: u32,
-    /// Times that a lane has to go on by itself.
-    to_resolve: u32,
+    rounds: Rounds,
     pieces: u64,
     corners: u64,
     overturned: usize,
@@ -21,24 +20,11 @@ fn counts(model: DampingModel, impact: Impact) -> Counts {
     // rounded, so that another library of sines changes no count
     let samples: Vec<f64> = shaking().iter().map(|p| (p * 1_048_576.0).round() / 1_048_576.0).collect();
     let (solver, forcing) = (RecordSolver::new(&motion, 5e-3), Forcing::Samples(&samples));
-    let (record, starts) = (Blocks::on(&solver, forcing, Vectors::widest()), starts(&motion));
-    let given = |start: &RunStart| BatchRun { solver: &solver, record: &record, start: *start };
-    let given: Vec<_> = starts.iter().map(given).collect();
-    let lanes = Lanes::new(&given, RunEnd::OfRecord, NoObserver);
-    let (mut rounds, mut to_resolve) = (0, 0);
-    let mut count = |waiting: Waiting| {
-        rounds += 1;
-        to_resolve += waiting.to_resolve.count_ones();
-    };
-    let kind = record.common(&solver).expect("a wall for lanes");
-    assert!(!matches!(kind, Common::Affine { .. }), "the record is prepared for the wall");
     let widest = Vectors::widest().expect("a processor with AVX2: rounds are of runs side by side");
-    let outcomes = follow(Some((widest, kind)), lanes, &mut count);
-    let outcomes: Vec<_> = outcomes.into_iter().collect::<Result<_, _>>().expect("bounded motions");
+    let (outcomes, rounds) = counted(&solver, forcing, &starts(&motion), widest).expect("bounded motions");
     let sum = |of: fn(&Outcome) -> u64| outcomes.iter().map(of).sum();
     Counts {
         rounds,
-        to_resolve,
         pieces: sum(|outcome| outcome.work.pieces),
         corners: sum(|outcome| outcome.work.corners),
         overturned: outcomes.iter().filter(|outcome| outcome.overturning.is_some()).count(),
@@ -54,7 +40,8 @@ fn the_work_of_batches_is_known() {
         (DampingModel::ConstantRatio, none, [412, 616], [127_017, 852], 12),
         (DampingModel::StiffnessProportional, none, [413, 620], [127_058, 867], 11),
     ] {
-        let known = Counts { rounds, to_resolve, pieces, corners, overturned };
+        let rounds = Rounds { rounds, to_resolve };
+        let known = Counts { rounds, pieces, corners, overturned };
         assert_eq!(counts(model, impact), known, "{model:?}");
     }
 }

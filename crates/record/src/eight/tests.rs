@@ -1,10 +1,9 @@
 //! Numbers side by side beside single ones.
 
-use fearless_simd::Simd;
+use fearless_simd::Level;
 
 use super::*;
-use crate::eight::Eight;
-use crate::number::{BranchRow, LaneRow, Number, WIDTH};
+use crate::number::Vectors;
 
 /// Numbers of lanes, ordinary and not, and their branches.
 const ROWS: [LaneRow; 3] = [
@@ -49,7 +48,7 @@ fn check_lanes<S: Simd>(simd: S) {
 fn numbers_side_by_side_are_single_numbers() {
     let Level::Sse2(simd) = Level::baseline() else { unreachable!("the processors tested here") };
     check_lanes(simd);
-    for vectors in all_vectors() {
+    for vectors in Vectors::all() {
         match vectors {
             Vectors::Avx2(simd) => check_lanes(simd),
             Vectors::Avx512(simd) => check_lanes(simd),
