@@ -156,18 +156,33 @@ def playground():
 
 
 @pytest.fixture(scope="session")
-def reproduction(wall, tmp_path_factory):
-    """The page of `wall verify paper` with three records."""
+def reproduced(wall, tmp_path_factory):
+    """The folder in which `wall verify paper` has written its page, and what it has told."""
     folder = tmp_path_factory.mktemp("reproduce")
     records = folder / "records"
     records.mkdir()
+    (records / "notes.md").write_text("# no record\n")
     for number in (1, 2, 3):
         samples = (
             0.3 * math.sin(4.0 * number * 0.01 * i) * math.sin(math.pi * i / 1000) for i in range(1000)
         )
         (records / f"{number}.AT2").write_text("\n".join(LINES + [f"{a:15.7E}" for a in samples]) + "\n")
-    path = folder / "paper.html"
-    command = [wall, "verify", "paper", "--records", records, "-o", path]
+    command = [wall, "verify", "paper", "--records", "records", "-o", "paper.html"]
+    return folder, subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
+
+
+@pytest.fixture(scope="session")
+def reproduction(reproduced):
+    """The page of `wall verify paper` with three records."""
+    folder, _ = reproduced
+    return folder / "paper.html"
+
+
+@pytest.fixture(scope="session")
+def calibration(wall, tmp_path_factory):
+    """The page of a calibration."""
+    path = tmp_path_factory.mktemp("calibrate") / "calibration.html"
+    command = [wall, "study", "calibrate", "--restitution", "0.84,0.92", "--a1", "0.02,0.05", "--html", path]
     subprocess.run(command, check=True, capture_output=True)
     return path
 

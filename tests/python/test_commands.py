@@ -39,7 +39,7 @@ NOT_RUN = {
 # Each takes minutes with programs that are not optimised; where else they are run.
 SLOW = {
     "python examples/coupling/run.py building": "test_coupling.py checks the schemes that it compares",
-    "wall verify paper": "crates/wall-cli/tests/it/paper.rs",
+    "wall verify paper": "test_reproduce_page.py",
     "python examples/python/passing_walls.py": "an hour; test_reliability.py makes a part",
 }
 # What has to be done before, where a document says so in words: every job of an array.

@@ -40,8 +40,8 @@ PAGES = {
     "study": ("study ida study.toml -o out", 6),
     "spectrum": ("study spectrum --synthetic --heights 1:6:6 --ratios 5:20:6 --html {}", 1),
     "stability": ("verify stability --columns 2 --html {}", 0),
-    "calibrate": ("study calibrate --restitution 0.84,0.92 --a1 0.02,0.05 --html {}", 0),
-    "reproduce": (None, 20),
+    "calibration": (None, 0),
+    "reproduction": (None, 20),
     "check report": (f"check {ROOT / 'scenes/checked_parapet.toml'} --report {{}}", 0),
     "check": ("check scene.toml --report {}", 0),
     "accuracy": (f"verify accuracy {ROOT / 'scenes/plain_parapet.toml'} --budget 0.001 --html {{}}", 3),
@@ -58,7 +58,7 @@ def page(request, browser, wall, tmp_path_factory):
     folder = tmp_path_factory.mktemp("paper")
     path = folder / ("out/study.html" if request.param == "study" else "page.html")
     if arguments is None:
-        path = request.getfixturevalue("reproduction" if request.param == "reproduce" else request.param)
+        path = request.getfixturevalue(request.param)
     else:
         (folder / "study.toml").write_text(STUDY)
         (folder / "scene.toml").write_text(SCENE)

@@ -3,18 +3,8 @@
 They load without errors and fit narrow and wide windows.
 """
 
-import subprocess
-
 import pytest
 from selenium.webdriver.common.by import By
-
-
-@pytest.fixture(scope="module")
-def calibration(wall, tmp_path_factory):
-    path = tmp_path_factory.mktemp("calibrate") / "calibration.html"
-    command = [wall, "study", "calibrate", "--restitution", "0.84,0.92", "--a1", "0.02,0.05", "--html", path]
-    subprocess.run(command, check=True, capture_output=True)
-    return path
 
 
 @pytest.fixture(params=["reproduction", "calibration"])
@@ -22,7 +12,27 @@ def page(request):
     return request.getfixturevalue(request.param)
 
 
-def test_the_page_loads_clean(browser, page):  # noqa: F811
+def test_one_page_has_everything_and_deviations_are_explained(reproduced):
+    """One run shows the page and the words, which say how many numbers agree, and why: it takes seconds."""
+    folder, run = reproduced
+    assert "left out" in run.stderr and "notes.md" in run.stderr
+    for words in ["Table 1", "Table 5", "Equations (20) to (23)", "Medians"]:
+        assert words in run.stdout
+    assert all(len(line) <= 160 for line in run.stdout.splitlines())
+    told, figures, _ = run.stdout.partition("Figures 2, ")
+    assert figures
+    lines = told.splitlines()
+    assert sum("round to print" in line for line in lines) == 7, told
+    table_1 = next(number for number, line in enumerate(lines) if line.startswith("Table 1"))
+    assert lines[table_1 + 1].startswith("    "), told
+    page = (folder / "paper.html").read_text()
+    assert all(left not in page for left in ["{{", "NaN", "inf"]), "a place left open"
+    for number in range(2, 16):
+        assert page.count(f'id="figure-{number}"') == 1, number
+    assert sorted(path.name for path in folder.iterdir()) == ["paper.html", "records"]
+
+
+def test_the_page_loads_clean(browser, page):
     browser.get_log("browser"), browser.get_log("performance")
     browser.get(page.as_uri())
     assert browser.get_log("browser") == []
@@ -36,7 +46,7 @@ def test_the_page_loads_clean(browser, page):  # noqa: F811
 
 
 @pytest.mark.parametrize("width", [420, 1600])
-def test_nothing_overflows(browser, page, width):  # noqa: F811
+def test_nothing_overflows(browser, page, width):
     browser.execute_cdp_cmd(
         "Emulation.setDeviceMetricsOverride",
         {"width": width, "height": 1000, "deviceScaleFactor": 1, "mobile": False},
@@ -49,7 +59,7 @@ def test_nothing_overflows(browser, page, width):  # noqa: F811
     assert content <= inner
 
 
-def test_every_figure_is_drawn_inside_its_frame(browser, reproduction):  # noqa: F811
+def test_every_figure_is_drawn_inside_its_frame(browser, reproduction):
     browser.get(reproduction.as_uri())
     numbers = [link.text for link in browser.find_elements(By.CSS_SELECTOR, "nav a")]
     assert numbers == [str(number) for number in range(2, 16)]
@@ -71,7 +81,7 @@ def test_every_figure_is_drawn_inside_its_frame(browser, reproduction):  # noqa:
         assert outside == [], (number, outside)
 
 
-def test_each_number_stands_beside_print(browser, reproduction):  # noqa: F811
+def test_each_number_stands_beside_print(browser, reproduction):
     browser.get(reproduction.as_uri())
     rows = browser.find_elements(By.XPATH, "//section[h2[starts-with(., 'Table 5')]]//tbody/tr")
     # e_an of wall 1: printed, computed with one digit more, deviation
