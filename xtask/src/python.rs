@@ -41,7 +41,8 @@ impl Environment {
         // without a pip of its own, which takes longer to install than most packages
         venv(&["--without-pip"], &self.folder)?;
         let mut pip = self.pip_install()?;
-        pip.args(["--no-compile", "--require-hashes", "-r"]);
+        // a lock file has all that is needed, and may leave out what is not
+        pip.args(["--no-compile", "--no-deps", "--require-hashes", "-r"]);
         succeed(pip.arg(lock), "check the network, then run the job again")
     }
 
