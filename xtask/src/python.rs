@@ -67,9 +67,13 @@ impl Environment {
         Ok(pip)
     }
 
-    /// Prepares a program of the environment.
+    /// Prepares a program of the environment. Modules are compiled where they are first imported, and kept,
+    /// whatever the shell says: tests start a hundred programs.
     pub(crate) fn program(&self, name: &str) -> std::process::Command {
-        program(self.programs().join(name))
+        let mut program = program(self.programs().join(name));
+        program.env_remove("PYTHONDONTWRITEBYTECODE");
+        program.env("PYTHONPYCACHEPREFIX", target().join("python").join("bytecode"));
+        program
     }
 
     /// Returns the folder of an installed package.

@@ -38,10 +38,15 @@ pub struct Growing<R> {
 impl<R> Growing<R> {
     /// Adds a column with the cell of each item.
     #[must_use]
-    pub fn column<C: Into<Cell<'static>>>(mut self, column: Column, cell: impl Fn(&R) -> C) -> Self {
+    pub fn column<C: Into<Cell<'static>>>(self, column: Column, cell: impl Fn(&R) -> C) -> Self {
+        self.cells(column, &|item| cell(item).into())
+    }
+
+    /// Adds a column. There are hundreds: this is compiled once for all of a kind of items.
+    fn cells(mut self, column: Column, cell: &dyn Fn(&R) -> Cell<'static>) -> Self {
         self.table.columns.push(column);
         for (row, item) in self.table.rows.iter_mut().zip(&self.items) {
-            row.push(cell(item).into());
+            row.push(cell(item));
         }
         self
     }
