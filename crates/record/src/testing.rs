@@ -1,5 +1,5 @@
-//! Doors for the tests of runs side by side, which are outside of this crate: inside, they would compile every
-//! step again for each width of vectors.
+//! Doors for the tests of runs side by side, which are outside of this crate: inside, they would compile
+//! every step again for each width of vectors.
 
 use rocking_wall::solver::SolverError;
 

@@ -9,6 +9,8 @@ use run::free_motion::{advance, as_in};
 pub(super) const DECAYED: f64 = 1e-3;
 /// Samples beyond the end of the decay, as a part of those before.
 const MARGIN: f64 = 0.1;
+/// Parts of a decay after which its error may be too large already.
+const PARTS: usize = 16;
 /// Most samples of a decay.
 pub(super) const MOST_SAMPLES: usize = 200_000;
 
@@ -49,18 +51,25 @@ impl Decay {
         Ok(count.map(|_| samples))
     }
 
-    /// Returns Err of Eq. (18) against the samples of a reference.
-    pub(super) fn error(&self, reference: &[f64], step: f64) -> Result<f64, SolverError> {
+    /// Returns Err of Eq. (18) against the samples of a reference, or of its first samples where that is above
+    /// `most` already.
+    pub(super) fn error(&self, reference: &[f64], step: f64, most: f64) -> Result<f64, SolverError> {
         let u_ins = self.motion.wall().body().instability;
         let solver = RecordSolver::new(&self.motion, step);
-        let mut sum = 0.0;
-        let start = RunStart { state: self.state, factor: 1.0 };
-        let mut add = |index: usize, u: f64, _| {
-            let difference = reference[index - 1] - u.abs() / u_ins.of(u);
-            // a call of powi takes longer where this crate is not optimised
-            sum += difference * difference;
-        };
-        solver.run_observed(start, Forcing::Still(reference.len() + 1), RunEnd::OfRecord, &mut add)?;
+        let (mut sum, mut state) = (0.0, self.state);
+        for part in reference.chunks(reference.len().div_ceil(PARTS).max(1)) {
+            let mut add = |index: usize, u: f64, _| {
+                let difference = part[index - 1] - u.abs() / u_ins.of(u);
+                // a call of powi takes longer where this crate is not optimised
+                sum += difference * difference;
+            };
+            let start = RunStart { state, factor: 1.0 };
+            let still = Forcing::Still(part.len() + 1);
+            state = solver.run_observed(start, still, RunEnd::OfRecord, &mut add)?.state;
+            if sum > most {
+                break;
+            }
+        }
         Ok(sum)
     }
 }

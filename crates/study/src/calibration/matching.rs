@@ -71,12 +71,12 @@ impl FreeVibration {
             .samples(step)
             .map_err(failed)?
             .ok_or(CalibrationError::NoDecay { restitution, start, step })?;
-        let error = |damping: f64| -> Result<f64, CalibrationError> {
+        let error = |damping: f64, most: f64| -> Result<f64, CalibrationError> {
             let decay = Decay::new(&with_damping(&rocking, model, damping))?;
-            decay.error(&reference, step).map_err(failed)
+            decay.error(&reference, step, most).map_err(failed)
         };
         let bracket = self.bracket(model.predicted_ratio(a1, restitution), error)?;
-        let (damping, error) = minimum(error, bracket, TOLERANCE)?;
+        let (damping, error) = minimum(|damping| error(damping, f64::INFINITY), bracket, TOLERANCE)?;
         Ok(Fit { a1, start, restitution, damping, error, samples: reference.len() })
     }
 
@@ -94,30 +94,32 @@ impl FreeVibration {
         Ok(Parameters { u_start, ..rocking })
     }
 
-    /// Scans around the damping `expected` and returns the dampings on both sides of the least error.
+    /// Scans around the damping `expected` and returns the dampings on both sides of the least error. Errors
+    /// above the least so far need not be known to their end.
     fn bracket(
         &self,
         expected: f64,
-        error: impl Fn(f64) -> Result<f64, CalibrationError>,
+        error: impl Fn(f64, f64) -> Result<f64, CalibrationError>,
     ) -> Result<[f64; 2], CalibrationError> {
         let shrunk = (-self.restitution.ln() / SCAN_FEW_CYCLES).clamp(SCAN_FINEST, 1.0);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "10 to 320")]
         let reach = (SCAN_OCTAVES * SCAN_STEPS / shrunk).ceil() as u32;
         let step = (shrunk / SCAN_STEPS).exp2();
-        let mut scan = Vec::new();
+        let (mut scan, mut least) = (Vec::new(), error(expected, f64::INFINITY)?);
         let mut damping = expected * step.powf(-f64::from(reach));
         for _ in 0..=2 * reach {
-            scan.push((damping, error(damping)?));
+            scan.push((damping, error(damping, least)?));
+            least = least.min(scan[scan.len() - 1].1);
             damping *= step;
         }
         for _ in 0..MOST_FURTHER {
             let least = (0..scan.len()).min_by(|&a, &b| scan[a].1.total_cmp(&scan[b].1)).unwrap_or(0);
             if least == 0 {
                 let damping = scan[0].0 / step;
-                scan.insert(0, (damping, error(damping)?));
+                scan.insert(0, (damping, error(damping, f64::INFINITY)?));
             } else if least + 1 == scan.len() {
                 let damping = scan[least].0 * step;
-                scan.push((damping, error(damping)?));
+                scan.push((damping, error(damping, f64::INFINITY)?));
             } else {
                 return Ok([scan[least - 1].0, scan[least + 1].0]);
             }
