@@ -15,7 +15,8 @@ fn runs_under_records() {
     let table = |ag: f64, records: &str| {
         format!(
             "{PARAPET}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
-             method = \"dynamic\"\nrecords = {{ synthetic = {{ count = {records} }} }}\n\
+             method = \"dynamic\"\nrecords = {{ synthetic = {{ count = {records}, \
+             duration = 10, step = 0.02 }} }}\n\
              SLV = {{ ag = {ag}, F0 = 2.45, TC = 0.32 }}\n"
         )
     };
@@ -56,7 +57,8 @@ fn the_confidence_factor_divides_forces() {
              \"constant_coefficient\"\nxi = 0.05\n [check]\ncode = \"circolare-2019\"\n\
              before_activation = \"law\"\nsoil = \"B\"\noverburden_mass = 0\n{factor}\n\
              record_scale = \"none\"\nmethod = \"dynamic\"\n\
-             records = {{ synthetic = {{ count = 3 }} }}\nSLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
+             records = {{ synthetic = {{ count = 3, duration = 10, step = 0.02 }} }}\n\
+             SLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
         )
     };
     let with = checked(&table(1.0, "confidence_factor = 1.35")).unwrap();
@@ -150,7 +152,8 @@ fn both_signs_of_a_record_run() {
         format!(
             "{PARAPET}[tie]\ntie_height = 3\ntie_stiffness = 1e6\ntie_strength = 1e3\ntie_side = \
              \"positive\"\n {more}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \
-             \"B\"\n method = \"dynamic\"\nrecords = {{ synthetic = {{ count = 3 }} }}\n\
+             \"B\"\n method = \"dynamic\"\nrecords = {{ synthetic = {{ count = 3, \
+             duration = 10, step = 0.02 }} }}\n\
              SLV = {{ ag = 0.1, F0 = 2.45, TC = 0.32 }}\n"
         )
     };
@@ -183,7 +186,8 @@ fn a_fall_to_a_side_that_is_not_checked_fails() {
         format!(
             "{PARAPET}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\nsoil = \"B\"\n\
              rocking = \"one_sided_positive\"\nmethod = \"dynamic\"\n\
-             records = {{ synthetic = {{ count = 3 }} }}\nSLV = {{ ag = {ag}, F0 = 2.45, TC = 0.32 }}\n"
+             records = {{ synthetic = {{ count = 3, duration = 10, step = 0.02 }} }}\n\
+             SLV = {{ ag = {ag}, F0 = 2.45, TC = 0.32 }}\n"
         )
     };
     let outcome = checked(&table(0.6)).unwrap();

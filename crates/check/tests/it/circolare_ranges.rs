@@ -86,7 +86,8 @@ fn height_ratio_zero_is_the_ground() {
 /// FC divides gravity in the runs; nobody stated that number.
 #[test]
 fn the_wall_of_the_runs_is_not_improbable() {
-    let text = wall("method = \"dynamic\"\nrecords = { synthetic = { count = 3 } }", "");
+    let text =
+        wall("method = \"dynamic\"\nrecords = { synthetic = { count = 3, duration = 10, step = 0.02 } }", "");
     let damped = "[force_law]\nforce_law = \"rigid_linear\"\n[damping]\ndamping_model = \"constant_ratio\"";
     let error = refuses(&text.replace("[check]", &format!("{damped}\n[check]")), "does not go with");
     assert!(!error.contains("gravity"), "{error}");

@@ -139,7 +139,8 @@ fn demands_that_do_not_serve_are_refused() {
     let damped = "{ ag = 0.15, F0 = 2.45, TC = 0.32, building_damping = 0.1 }";
     let in_building = spectrum(to_nine, 0.1).replace(SITE, damped)
         + "building = { modes = [{ period = 0.3, participation = 1 }] }";
-    let records = with("method = \"dynamic\"\nrecords = { synthetic = { count = 3 } }");
+    let records =
+        with("method = \"dynamic\"\nrecords = { synthetic = { count = 3, duration = 10, step = 0.02 } }");
     let as_they_are = "or ag, with records and record_scale = \"none\"";
     for (table, message) in [
         (spectrum(to_nine, 0.05), "SLC needs the spectrum at 10 % damping; the given one is at 5 %"),

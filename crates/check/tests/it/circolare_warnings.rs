@@ -59,10 +59,11 @@ fn spectra_and_sites_that_contradict_themselves_are_refused() {
                   building = { modes = [{ period = 0.3, participation = 0 }] }";
     let records = format!(
         "SLV = {SITE}\nrecord_range = [2.0, 0.15]\nrecord_scale = \"spectrum\"\n\
-         records = {{ synthetic = {{ count = 3 }} }}"
+         records = {{ synthetic = {{ count = 3, duration = 10, step = 0.02 }} }}"
     );
     let scaled = "SLV = { ag = 0.15, spectrum = [[0, 0.2], [4, 0.01]], spectrum_damping = 0.08 }\n\
-                  method = \"dynamic\"\nrecord_scale = \"spectrum\"\nrecords = { synthetic = { count = 3 } }";
+                  method = \"dynamic\"\nrecord_scale = \"spectrum\"\nrecords = { synthetic = { count = 3, \
+                  duration = 10, step = 0.02 } }";
     for (text, message) in [
         (slv(spectrum), "or ag with a spectrum and spectrum_damping"),
         (slv(&format!("{spectrum}, spectrum_damping = 0.08, F0 = 2.45, TC = 0.3")), "SLV: needs its site"),
@@ -135,7 +136,7 @@ fn what_turns_a_verdict_is_said() {
 /// What the runs of a dynamic check leave out, and records that are far from the spectrum.
 #[test]
 fn runs_under_records_say_what_they_leave_out() {
-    let records = "method = \"dynamic\"\nrecords = { synthetic = { count = 3 } }";
+    let records = "method = \"dynamic\"\nrecords = { synthetic = { count = 3, duration = 10, step = 0.02 } }";
     let dynamic =
         |scene: &str, site: &str, more: &str| parapet(scene, &format!("SLV = {site}\n{records}\n{more}"));
     let tie = format!("[tie]\ntie_height = 3\n{STIFF}");

@@ -23,7 +23,7 @@ fn reads(text: &str) -> Result<(), SceneError> {
 #[test]
 fn no_message_speaks_in_words_of_the_reader() {
     // a spectrum is that of the wall's own place, without a building
-    let records = "[check.records]\nsynthetic = { count = 3 }\n";
+    let records = "[check.records]\nsynthetic = { count = 3, duration = 10, step = 0.02 }\n";
     let (states, _) = CHECK.split_once("[check.building]").unwrap();
     walk(&format!("{states}{records}"), reads);
     let (slv, rest) = CHECK.split_once("[check.SLC]").unwrap();

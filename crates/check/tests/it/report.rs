@@ -239,7 +239,8 @@ fn every_threshold_of_runs_is_printed() {
         format!(
             "{PARAPET}{rocking}[check]\ncode = \"circolare-2019\"\nbefore_activation = \"rigid\"\n\
              soil = \"B\"\nrocking = \"one_sided_positive\"\nmethod = \"dynamic\"\n\
-             records = {{ synthetic = {{ count = 3 }} }}\nSLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
+             records = {{ synthetic = {{ count = 3, duration = 10, step = 0.02 }} }}\n\
+             SLV = {{ ag = 0.15, F0 = 2.45, TC = 0.32 }}\n"
         )
     };
     let left_out = "Threshold on the side u < 0, which the static checks leave out: overturning";

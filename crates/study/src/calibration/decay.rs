@@ -51,8 +51,8 @@ impl Decay {
         Ok(count.map(|_| samples))
     }
 
-    /// Returns Err of Eq. (18) against the samples of a reference, or of its first samples where that is above
-    /// `most` already.
+    /// Returns Err of Eq. (18) against the samples of a reference, or against its first samples where that is
+    /// above `most` already.
     pub(super) fn error(&self, reference: &[f64], step: f64, most: f64) -> Result<f64, SolverError> {
         let u_ins = self.motion.wall().body().instability;
         let solver = RecordSolver::new(&self.motion, step);
