@@ -1,6 +1,6 @@
-"""Tests the pages of `wall verify paper` and `wall study calibrate` in a browser.
+"""Tests what `wall verify paper` tells, and its page and that of `wall study calibrate` in a browser.
 
-They load without errors and fit narrow and wide windows.
+The pages load without errors and fit narrow and wide windows.
 """
 
 import pytest
@@ -26,6 +26,7 @@ def test_one_page_has_everything_and_deviations_are_explained(reproduced):
     table_1 = next(number for number, line in enumerate(lines) if line.startswith("Table 1"))
     assert lines[table_1 + 1].startswith("    "), told
     page = (folder / "paper.html").read_text()
+    assert len(page) < 3 * 2**20
     assert all(left not in page for left in ["{{", "NaN", "inf"]), "a place left open"
     for number in range(2, 16):
         assert page.count(f'id="figure-{number}"') == 1, number

@@ -41,7 +41,7 @@ impl Environment {
         // without a pip of its own, which takes longer to install than most packages
         venv(&["--without-pip"], &self.folder)?;
         let mut pip = self.pip_install()?;
-        // a lock file has all that is needed, and may leave out what is not
+        // the lock file lists every package that is installed; what it leaves out is not needed
         pip.args(["--no-compile", "--no-deps", "--require-hashes", "-r"]);
         succeed(pip.arg(lock), "check the network, then run the job again")
     }
@@ -67,8 +67,9 @@ impl Environment {
         Ok(pip)
     }
 
-    /// Prepares a program of the environment. Modules are compiled where they are first imported, and kept,
-    /// whatever the shell says: tests start a hundred programs.
+    /// Prepares a program of the environment. Python keeps the bytecode of what it imports, even where the
+    /// shell forbids it: the tests start a hundred programs, and each would compile its modules again. The
+    /// bytecode stands under the target folder, not beside the sources.
     pub(crate) fn program(&self, name: &str) -> std::process::Command {
         let mut program = program(self.programs().join(name));
         program.env_remove("PYTHONDONTWRITEBYTECODE");

@@ -107,6 +107,9 @@ fn written(job: &mut Command, folder: &Path, ending: &str) -> Result<PathBuf> {
 /// Installs the wheel into an environment that has what it needs.
 pub(crate) fn install(wheel: &Path, environment: &Environment) -> Result<()> {
     let mut pip = environment.pip_install()?;
-    output(pip.args(["--no-index", "--no-deps", "--force-reinstall"]).arg(wheel), "see its message above")
-        .map(drop)
+    output(
+        pip.args(["--no-compile", "--no-index", "--no-deps", "--force-reinstall"]).arg(wheel),
+        "see its message above",
+    )
+    .map(drop)
 }

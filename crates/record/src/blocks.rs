@@ -55,7 +55,7 @@ impl<'a> Blocks<'a> {
         Self { responses, ..record }
     }
 
-    /// Returns the forcing.
+    #[doc(hidden)]
     pub fn forcing(&self) -> Forcing<'a> {
         self.forcing
     }

@@ -23,7 +23,7 @@
 //! | `lanes`, `branches`, `line` | the runs in lanes, and the branches that they are on |
 //! | `corners`, `turns`, `plain`, `regularised`, `curved` | the steps |
 //! | `schedule`, `wide`, `together`, `batch` | which lane takes which step, which run which lane |
-//! | `testing` | doors for the tests of runs side by side |
+//! | `testing` | what the tests of runs side by side need |
 #![allow(
     clippy::inline_always,
     reason = "measured: a step is one piece of straight code, its numbers in registers"

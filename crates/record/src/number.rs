@@ -34,25 +34,19 @@ pub enum Vectors {
 impl Vectors {
     /// Returns the widest of these vectors that the processor has; `None` if it has none.
     pub fn widest() -> Option<Self> {
-        #[cfg(target_arch = "x86_64")]
-        {
-            let level = Level::new();
-            level.as_avx512().map(Self::Avx512).or_else(|| level.as_avx2().map(Self::Avx2))
-        }
-        #[cfg(not(target_arch = "x86_64"))]
-        None
+        Self::all().last()
     }
 
-    /// Returns all of these vectors that the processor has.
-    pub fn all() -> Vec<Self> {
+    /// Returns all of these vectors that the processor has, the widest last.
+    pub fn all() -> impl Iterator<Item = Self> {
         #[cfg(target_arch = "x86_64")]
-        {
+        let all = {
             let level = Level::new();
-            let all = [level.as_avx2().map(Self::Avx2), level.as_avx512().map(Self::Avx512)];
-            all.into_iter().flatten().collect()
-        }
+            [level.as_avx2().map(Self::Avx2), level.as_avx512().map(Self::Avx512)]
+        };
         #[cfg(not(target_arch = "x86_64"))]
-        Vec::new()
+        let all: [Option<Self>; 0] = [];
+        all.into_iter().flatten()
     }
 }
 

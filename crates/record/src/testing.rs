@@ -1,4 +1,4 @@
-//! Doors for the tests of runs side by side, which are outside of this crate: inside, they would compile
+//! What the tests of runs side by side need. They stand outside of this crate: inside, rustc would compile
 //! every step again for each width of vectors.
 
 use rocking_wall::solver::SolverError;
@@ -19,9 +19,9 @@ pub use crate::together::run_together_on;
 pub enum Way {
     /// By itself.
     Alone,
-    /// Side by side, by the samples of its record.
+    /// Side by side, from the samples of the record.
     SideBySide,
-    /// Side by side, by the responses of its wall to its record.
+    /// Side by side, from responses that were prepared for this wall and record.
     Prepared,
 }
 
@@ -54,7 +54,7 @@ pub struct Rounds {
 /// As of [`Batch::run`](crate::Batch::run).
 ///
 /// # Panics
-/// If its runs do not go side by side.
+/// If the runs do not go side by side, or the record could not be prepared for a wall with constant damping.
 pub fn counted(
     solver: &RecordSolver<'_>,
     forcing: Forcing<'_>,
@@ -69,7 +69,12 @@ pub fn counted(
         counted.rounds += 1;
         counted.to_resolve += waiting.to_resolve.count_ones();
     };
-    let Some(kind) = record.common(solver) else { panic!("runs that go one by one have no rounds") };
+    let kind = match record.common(solver) {
+        Some(kind @ (Common::Prepared(_) | Common::Curved { .. })) => kind,
+        None | Some(Common::Affine { .. }) => {
+            panic!("the runs go one by one, or the record is not prepared for the wall")
+        }
+    };
     let outcomes = follow(Some((vectors, kind)), lanes, &mut count).into_iter().collect::<Result<_, _>>()?;
     Ok((outcomes, counted))
 }

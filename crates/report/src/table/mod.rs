@@ -42,7 +42,8 @@ impl<R> Growing<R> {
         self.cells(column, &|item| cell(item).into())
     }
 
-    /// Adds a column. There are hundreds: this is compiled once for all of a kind of items.
+    /// Adds a column. Not generic in the function, so that rustc compiles it once for each type of item, not
+    /// once for each of hundreds of columns.
     fn cells(mut self, column: Column, cell: &dyn Fn(&R) -> Cell<'static>) -> Self {
         self.table.columns.push(column);
         for (row, item) in self.table.rows.iter_mut().zip(&self.items) {

@@ -9,7 +9,7 @@ use run::free_motion::{advance, as_in};
 pub(super) const DECAYED: f64 = 1e-3;
 /// Samples beyond the end of the decay, as a part of those before.
 const MARGIN: f64 = 0.1;
-/// Parts of a decay after which its error may be too large already.
+/// Number of parts in which a decay is run. After each, a run whose error is too large already ends.
 const PARTS: usize = 16;
 /// Most samples of a decay.
 pub(super) const MOST_SAMPLES: usize = 200_000;
@@ -51,13 +51,13 @@ impl Decay {
         Ok(count.map(|_| samples))
     }
 
-    /// Returns Err of Eq. (18) against the samples of a reference, or against its first samples where that is
-    /// above `most` already.
+    /// Returns Err of Eq. (18) \[-\] against the samples of a reference. Where it exceeds `most` \[-\] early,
+    /// the run ends, and a part of the sum above `most` is returned.
     pub(super) fn error(&self, reference: &[f64], step: f64, most: f64) -> Result<f64, SolverError> {
         let u_ins = self.motion.wall().body().instability;
         let solver = RecordSolver::new(&self.motion, step);
         let (mut sum, mut state) = (0.0, self.state);
-        for part in reference.chunks(reference.len().div_ceil(PARTS).max(1)) {
+        for part in reference.chunks(reference.len().div_ceil(PARTS)) {
             let mut add = |index: usize, u: f64, _| {
                 let difference = part[index - 1] - u.abs() / u_ins.of(u);
                 // a call of powi takes longer where this crate is not optimised
@@ -71,5 +71,26 @@ impl Decay {
             }
         }
         Ok(sum)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rocking_wall::variables::DampingModel;
+    use run::free_motion::{with_damping, with_restitution};
+
+    /// A run that ends early has an error above the bound, and not yet that of the whole run.
+    #[test]
+    fn a_run_ends_where_its_error_is_too_large() {
+        let rocking = with_restitution(&Parameters::default(), 0.85);
+        let step = 0.01;
+        let reference = Decay::new(&rocking).unwrap().samples(step).unwrap().unwrap();
+        let damped = Decay::new(&with_damping(&rocking, DampingModel::ConstantRatio, 0.1)).unwrap();
+        let error = |most: f64| damped.error(&reference, step, most).unwrap();
+        let whole = error(f64::INFINITY);
+        assert_eq!(error(whole), whole);
+        let part = error(0.25 * whole);
+        assert!(0.25 * whole < part && part < whole, "{part} of {whole}");
     }
 }

@@ -94,8 +94,8 @@ impl FreeVibration {
         Ok(Parameters { u_start, ..rocking })
     }
 
-    /// Scans around the damping `expected` and returns the dampings on both sides of the least error. Errors
-    /// above the least so far need not be known to their end.
+    /// Scans around the damping `expected` and returns the dampings on both sides of the least error. An
+    /// error above the least so far is not computed to its end: it cannot be the least.
     fn bracket(
         &self,
         expected: f64,
@@ -105,12 +105,14 @@ impl FreeVibration {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "10 to 320")]
         let reach = (SCAN_OCTAVES * SCAN_STEPS / shrunk).ceil() as u32;
         let step = (shrunk / SCAN_STEPS).exp2();
-        let (mut scan, mut least) = (Vec::new(), error(expected, f64::INFINITY)?);
-        let mut damping = expected * step.powf(-f64::from(reach));
-        for _ in 0..=2 * reach {
-            scan.push((damping, error(damping, least)?));
-            least = least.min(scan[scan.len() - 1].1);
-            damping *= step;
+        // an error near the least, beside which those before it are large
+        let (mut scan, mut least_error) = (Vec::new(), error(expected, f64::INFINITY)?);
+        for n in 0..=2 * reach {
+            // the middle is `expected` itself, so that the least of all is known to its end
+            let damping = expected * step.powf(f64::from(n) - f64::from(reach));
+            let found = error(damping, least_error)?;
+            least_error = least_error.min(found);
+            scan.push((damping, found));
         }
         for _ in 0..MOST_FURTHER {
             let least = (0..scan.len()).min_by(|&a, &b| scan[a].1.total_cmp(&scan[b].1)).unwrap_or(0);
