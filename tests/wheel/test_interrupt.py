@@ -34,14 +34,23 @@ def study(folder, text):
     return path
 
 
+def heed_ctrl_c():
+    """What a shell starts in the background ignores Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def assert_stops(*arguments):
     """Starts Python, sends Ctrl-C and waits for its end, which would otherwise come minutes later."""
-    with subprocess.Popen([sys.executable, "-c", *arguments], stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout.readline() == "started\n"
-        time.sleep(0.2)
-        assert process.poll() is None, "the work is not long enough"
-        process.send_signal(signal.SIGINT)
-        told, _ = process.communicate(timeout=30)
+    command = [sys.executable, "-c", *arguments]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heed_ctrl_c) as process:
+        try:
+            assert process.stdout.readline() == "started\n"
+            time.sleep(0.2)
+            assert process.poll() is None, "the work is not long enough"
+            process.send_signal(signal.SIGINT)
+            told, _ = process.communicate(timeout=30)
+        finally:
+            process.kill()
     assert told == "stopped\n" and process.returncode == 0
 
 
