@@ -141,6 +141,21 @@ fn reports(path: &Path, text: &str) -> [(Language, String); 2] {
     })
 }
 
+fn assert_is_in(language: Language, name: &str, page: &str) {
+    let others = match language {
+        Language::It => ENGLISH,
+        Language::En => ITALIAN,
+    };
+    let language = language.name();
+    assert!(page.contains(&format!("<html lang=\"{language}\"")), "{name}");
+    let all = texts(page);
+    assert!(all.len() > 50, "{name}");
+    let own = |text: &&String| !text.starts_with("wall ");
+    let left: Vec<_> =
+        all.iter().filter(own).filter_map(|text| Some((foreign(text, others)?, text))).collect();
+    assert!(left.is_empty(), "{name} in {language}: these texts are not: {left:#?}");
+}
+
 #[test]
 fn reports_have_one_language() {
     let folder = folder("report_languages");
@@ -201,19 +216,8 @@ fn reports_have_one_language() {
     assert_eq!(scenes.len(), 49, "docs/model.md counts them");
     for (name, scene) in scenes {
         for (language, page) in reports(&folder.join("scene.toml"), scene) {
-            let others = match language {
-                Language::It => ENGLISH,
-                Language::En => ITALIAN,
-            };
-            let language = language.name();
-            fs::write(folder.join(format!("{name}-{language}.html")), &page).unwrap();
-            assert!(page.contains(&format!("<html lang=\"{language}\"")), "{name}");
-            let all = texts(&page);
-            assert!(all.len() > 50, "{name}");
-            let own = |text: &&String| !text.starts_with("wall ");
-            let left: Vec<_> =
-                all.iter().filter(own).filter_map(|text| Some((foreign(text, others)?, text))).collect();
-            assert!(left.is_empty(), "{name} in {language}: these texts are not: {left:#?}");
+            fs::write(folder.join(format!("{name}-{}.html", language.name())), &page).unwrap();
+            assert_is_in(language, name, &page);
         }
     }
     assert_has(&content(&folder, "torn-it.html"), &["la barra (fragile)", "Area della sezione della barra"]);
