@@ -105,12 +105,12 @@ impl FreeVibration {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "10 to 320")]
         let reach = (SCAN_OCTAVES * SCAN_STEPS / shrunk).ceil() as u32;
         let step = (shrunk / SCAN_STEPS).exp2();
-        // an error near the least, beside which those before it are large
-        let (mut scan, mut least_error) = (Vec::new(), error(expected, f64::INFINITY)?);
+        // first the middle of the scan, beside whose error those at its ends are large
+        let middle = error(expected, f64::INFINITY)?;
+        let (mut scan, mut least_error) = (Vec::new(), middle);
         for n in 0..=2 * reach {
-            // the middle is `expected` itself, so that the least of all is known to its end
             let damping = expected * step.powf(f64::from(n) - f64::from(reach));
-            let found = error(damping, least_error)?;
+            let found = if n == reach { middle } else { error(damping, least_error)? };
             least_error = least_error.min(found);
             scan.push((damping, found));
         }
