@@ -32,7 +32,10 @@ impl Input {
 
     /// Extrapolates the input to the end of a step of `duration` \[s\].
     pub fn extrapolate(&mut self, duration: f64) {
-        *self = Self { value: self.value + self.rate * duration, rate: 0.0, last_rate: self.rate };
+        // an input that is held is not written: the next step would wait for it, a fifth of its time
+        if self.rate != 0.0 || self.last_rate != 0.0 {
+            *self = Self { value: self.value + self.rate * duration, rate: 0.0, last_rate: self.rate };
+        }
     }
 
     /// Writes or reads the input as part of a state.
