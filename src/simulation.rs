@@ -189,7 +189,7 @@ impl Simulation {
     ) -> Result<bool, RunError> {
         let next = |simulation: &mut Self, demands: Option<&mut Demands>, _| {
             if let (Some(motion), Some(demands)) = (motion, demands) {
-                simulation.pass_calm_steps(end, motion, demands);
+                simulation.pass_steps(end, motion, demands, |_| ());
             }
             let now = simulation.progress.time;
             (segment_of(motion, now, end - now), end - now)
@@ -231,8 +231,21 @@ impl Simulation {
         Err(RunError::TooManySegments { limit: MOST_SEGMENTS })
     }
 
-    /// Passes the steps of a record that are calm, up to the last one before a time \[s\].
-    fn pass_calm_steps(&mut self, end: f64, motion: &Excitation, demands: &Demands) {
+    /// Passes the steps of a record in which nothing happens from here on, up to the last one before a time
+    /// \[s\], and adds u \[m\] and u̇ \[m/s\] at the end of each to `ends`. Their demands are those so far. There
+    /// may be none, and there are none between samples.
+    pub fn pass_calm_steps(
+        &mut self,
+        end: f64,
+        motion: &Excitation,
+        demands: &Demands,
+        ends: &mut Vec<[f64; 2]>,
+    ) {
+        self.pass_steps(end, motion, demands, |end| ends.push(end));
+    }
+
+    /// Passes calm steps, and shows `see` u and u̇ at the end of each.
+    fn pass_steps(&mut self, end: f64, motion: &Excitation, demands: &Demands, see: impl FnMut([f64; 2])) {
         let time = self.progress.time;
         let step = motion.bottom().step();
         if end - time < FEWEST_CALM * step {
@@ -244,7 +257,7 @@ impl Simulation {
         let samples = Samples { accelerations: &accelerations[..count], step };
         let Progress { state, work, .. } = &mut self.progress;
         let moves = state.phase == Phase::Moving;
-        let passed = self.first.pass_calm_steps(state, samples, &mut self.memo, demands);
+        let passed = self.first.pass_calm_steps(state, samples, &mut self.memo, demands, see);
         work.pieces += if moves { passed as u64 } else { 0 };
         if passed > 0 {
             self.progress.time = (first + passed) as f64 * step;

@@ -33,10 +33,17 @@ pub struct Outputs {
 impl Simulation {
     /// Returns the outputs under the supports' present motion.
     pub fn outputs(&self, support: Support) -> Outputs {
+        let State { displacement, velocity, .. } = self.progress.state;
+        self.outputs_at([displacement, velocity], support)
+    }
+
+    /// Returns the outputs under a motion of the supports where u \[m\] and u̇ \[m/s\] are others, such as at
+    /// the end of a calm step, and all else is as it is now.
+    pub fn outputs_at(&self, [displacement, velocity]: [f64; 2], support: Support) -> Outputs {
         let wall = self.wall();
         let body = wall.body();
         let m = body.effective_mass;
-        let State { displacement, velocity, branch, phase, departed, .. } = self.progress.state;
+        let State { branch, phase, departed, .. } = self.progress.state;
         let damping = wall.branches()[branch].continued_damping(displacement).0 * velocity;
         let forcing = body.forcing(support);
         // the part of the forcing that is not acceleration of the supports: W d/h

@@ -113,20 +113,27 @@ fn limits(branch: &Branch, state: &State, demands: &Demands) -> Option<Bounds> {
 
 impl Motion {
     /// Moves `state` through the first steps of a record that are calm, with demands so far of which they
-    /// change none. Returns the number of these steps.
+    /// change none; `see` is shown u and u̇ at the end of each. Returns the number of these steps.
     pub(crate) fn pass_calm_steps(
         &self,
         state: &mut State,
         samples: Samples<'_>,
         memo: &mut Memo,
         demands: &Demands,
+        mut see: impl FnMut([f64; 2]),
     ) -> usize {
         let (motion, propagators) = memo.prepare(self, &state.tie);
-        match state.phase {
+        let stays = match state.phase {
             Phase::Landed => samples.accelerations.len() - 1,
             Phase::Resting => motion.count_calm_rests(state, samples, demands),
-            Phase::Moving => motion.move_calmly(state, samples, propagators, demands).unwrap_or(0),
+            Phase::Moving => {
+                return motion.move_calmly(state, samples, propagators, demands, see).unwrap_or(0);
+            }
+        };
+        for _ in 0..stays {
+            see([state.displacement, state.velocity]);
         }
+        stays
     }
 
     /// Counts the first steps of a record through which a wall rests with known reactions.
@@ -155,6 +162,7 @@ impl Motion {
         samples: Samples<'_>,
         propagators: &mut Propagators,
         demands: &Demands,
+        mut see: impl FnMut([f64; 2]),
     ) -> Option<usize> {
         let (Samples { accelerations, step }, index) = (samples, state.branch);
         let (branch, oscillator) = (&self.wall.branches()[index], &self.oscillators[index]);
@@ -183,6 +191,7 @@ impl Motion {
                 break;
             }
             (now, from, passed) = (end, to, passed + 1);
+            see([now.displacement, now.velocity]);
         }
         (state.displacement, state.velocity) = (now.displacement, now.velocity);
         Some(passed)
@@ -242,7 +251,7 @@ mod tests {
             while index < count {
                 let samples = Samples { accelerations: &accelerations[index..], step };
                 let mut searched = state;
-                let passed = motion.pass_calm_steps(&mut state, samples, &mut memo, &demands);
+                let passed = motion.pass_calm_steps(&mut state, samples, &mut memo, &demands, |_| ());
                 for n in index..index + passed {
                     let mut after = demands.clone();
                     let work = search(&mut searched, &mut after, n);

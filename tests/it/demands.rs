@@ -1,9 +1,8 @@
 //! Tests demands: extremes and crossings against closed forms and dense sampling, half cycles, and the
 //! program's output.
 
-use ground_motion::SyntheticMotion;
 use proptest::prelude::*;
-use rocking_wall::simulation::{Excitation, Simulation};
+use rocking_wall::simulation::Simulation;
 use rocking_wall::solver::{Demands, Extremes, Instant, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Ends, Parameters, Support, Wall};
@@ -341,53 +340,4 @@ fn a_scene_states_its_limit_states() {
     assert_eq!(fractions, [0.25, 0.75]);
     assert_eq!(read(&scene::to_toml(&scene, "")).thresholds, scene.thresholds);
     assert_eq!(read("").thresholds, [0.1, 0.4, 0.6, 1.0]);
-}
-
-/// Between outputs far apart, steps in which nothing happens are passed together: demands, corners and half
-/// cycles are those of outputs at every sample. Steps differ by rounding, a hundred times 2.2e-16 of the
-/// record at most, which a run amplifies as it does a change of the record by 1e-10; secant ones by the
-/// tolerance too.
-#[test]
-fn demands_do_not_depend_on_the_outputs() {
-    let parameters = Parameters { height: 3.0, thickness: 0.25, u_start: 0.0, ..Parameters::default() };
-    let damped = |damping_model| Parameters { damping_model, ..parameters.clone() };
-    let constant = damped(DampingModel::ConstantCoefficient);
-    let rigid = Parameters {
-        force_law: ForceLaw::RigidLinear,
-        impact: Impact::Restitution,
-        ..damped(DampingModel::None)
-    };
-    let strip = Parameters { mechanism: Mechanism::VerticalSpanning, ..constant.clone() };
-    let tied = Parameters { tie_height: 2.0, tie_stiffness: 3e5, tie_slack: 5e-3, ..constant.clone() };
-    let ratio = damped(DampingModel::ConstantRatio);
-    let record = SyntheticMotion::default().motion().unwrap().checked_scaled(0.5).unwrap();
-    for (parameters, tolerance) in [(constant, 0.0), (rigid, 0.0), (strip, 0.0), (tied, 0.0), (ratio, 1e-6)] {
-        let run = |scale: f64, output_step: f64| {
-            let mut scene = Scene { parameters: parameters.clone(), ..Scene::default() };
-            let scaled = record.checked_scaled(scale).unwrap();
-            scene.shake(Excitation::new(scaled, None), 2.0, Vec::new());
-            scene.output_step = output_step;
-            Response::of(&scene).unwrap()
-        };
-        let each = run(1.0, record.step());
-        let difference = |other: &Response| {
-            let extremes = |Demands { displacement: u, velocity: v, acceleration: a, .. }: &Demands| {
-                [u, v, a].map(|of| [of.highest.value, of.lowest.value])
-            };
-            let pairs = extremes(&each.demands).into_iter().zip(extremes(&other.demands));
-            let part = |([a, b], [c, d]): ([f64; 2], [f64; 2])| {
-                (a - c).abs().max((b - d).abs()) / a.abs().max(b.abs())
-            };
-            pairs.map(part).fold(0.0, f64::max)
-        };
-        let amplification = difference(&run(1.0 + 1e-10, record.step())) / 1e-10;
-        for output_step in [1e3, 20.0 * record.step()] {
-            let rare = run(1.0, output_step);
-            let allowed = tolerance + 100.0 * f64::EPSILON * (1.0 + amplification);
-            assert!(difference(&rare) <= allowed, "{} of {allowed}", difference(&rare));
-            let counts =
-                |of: &Response| (of.demands.half_cycles, of.summary.work.corners, of.summary.end_time);
-            assert_eq!(counts(&each), counts(&rare));
-        }
-    }
 }

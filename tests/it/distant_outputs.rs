@@ -1,10 +1,14 @@
-//! The work and the demands of a run do not depend on how far apart its outputs are.
+//! Work, demands and history of a run do not depend on how far apart its outputs are.
 
+use ground_motion::SyntheticMotion;
 use proptest::prelude::*;
 use proptest::sample::select;
+use rocking_wall::simulation::{Excitation, Simulation};
 use rocking_wall::solver::{Demands, Extremes, Segment};
 use rocking_wall::variables::{DampingModel, ForceLaw, Impact, Mechanism};
 use rocking_wall::wall::{Parameters, Support, Wall};
+use scene::Scene;
+use scene::response::{COLUMNS, Response, Sample};
 
 use crate::configuration::mostly;
 use crate::start;
@@ -106,4 +110,94 @@ fn distant_outputs_cost_no_pieces() {
         prop_assert!(difference <= allowed, "differs by {difference:e}, allowed {allowed:e}");
         Ok([1, 1])
     });
+}
+
+/// A run under a record: its demands, its work and a line of its history at each sample.
+struct Run {
+    demands: Demands,
+    corners: u64,
+    samples: Vec<Sample>,
+}
+
+/// Runs a scene from sample to sample: so few steps are not passed together.
+fn step_by_step(scene: &Scene) -> Run {
+    let motion = scene.support_motion().unwrap();
+    let motion = motion.as_deref().unwrap();
+    let support_at = |time: f64| motion.segment(time, 0.0).from;
+    let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support_at(0.0)).unwrap();
+    let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
+    let mut samples = Vec::new();
+    for index in 0..=scene.output_count().unwrap() {
+        let time = index as f64 * motion.step();
+        simulation.advance_to(time, Some(motion), Some(&mut demands)).unwrap();
+        let support = support_at(time);
+        samples.push(Sample { time, support, outputs: simulation.outputs(support) });
+    }
+    Run { demands, corners: simulation.progress().work.corners, samples }
+}
+
+/// The largest difference of extremes of u, u̇ and ü, relative to their size.
+fn of_demands(one: &Demands, other: &Demands) -> f64 {
+    let extremes = |Demands { displacement: u, velocity: v, acceleration: a, .. }: &Demands| {
+        [u, v, a].map(|of| [of.highest.value, of.lowest.value])
+    };
+    let part =
+        |([a, b], [c, d]): ([f64; 2], [f64; 2])| (a - c).abs().max((b - d).abs()) / a.abs().max(b.abs());
+    extremes(one).into_iter().zip(extremes(other)).map(part).fold(0.0, f64::max)
+}
+
+/// The largest difference of a column of two histories, relative to its size.
+fn of_histories(one: &[Sample], other: &[Sample]) -> f64 {
+    assert_eq!(one.len(), other.len());
+    let parts = COLUMNS.map(|(_, _, value)| {
+        let pairs = one.iter().zip(other).map(|(a, b)| [value(a), value(b)]);
+        let [difference, size] = pairs.fold([0.0_f64; 2], |[difference, size], [a, b]| {
+            [difference.max((a - b).abs()), size.max(a.abs())]
+        });
+        difference / size.max(f64::MIN_POSITIVE)
+    });
+    parts.into_iter().fold(0.0, f64::max)
+}
+
+/// Steps of a record in which nothing happens are passed together: demands, corners, half cycles and history
+/// are those of steps one by one. The times of samples are rounded by 2.2e-16 of the time at most, which
+/// changes the record by that part of a step. A run amplifies it as it does a change of the record by 1e-10;
+/// runs with secant damping differ by the tolerance too.
+#[test]
+fn steps_together_are_those_one_by_one() {
+    let parameters = Parameters { height: 3.0, thickness: 0.25, u_start: 0.0, ..Parameters::default() };
+    let damped = |damping_model| Parameters { damping_model, ..parameters.clone() };
+    let constant = damped(DampingModel::ConstantCoefficient);
+    let rigid = Parameters {
+        force_law: ForceLaw::RigidLinear,
+        impact: Impact::Restitution,
+        ..damped(DampingModel::None)
+    };
+    let strip = Parameters { mechanism: Mechanism::VerticalSpanning, ..constant.clone() };
+    let tied = Parameters { tie_height: 2.0, tie_stiffness: 3e5, tie_slack: 5e-3, ..constant.clone() };
+    let ratio = damped(DampingModel::ConstantRatio);
+    let record = SyntheticMotion::default().motion().unwrap().checked_scaled(0.5).unwrap();
+    for (parameters, tolerance) in [(constant, 0.0), (rigid, 0.0), (strip, 0.0), (tied, 0.0), (ratio, 1e-6)] {
+        let scene = |scale: f64| {
+            let mut scene = Scene { parameters: parameters.clone(), ..Scene::default() };
+            scene.shake(Excitation::new(record.checked_scaled(scale).unwrap(), None), 2.0, Vec::new());
+            scene
+        };
+        let (each, changed) = (step_by_step(&scene(1.0)), step_by_step(&scene(1.0 + 1e-10)));
+        let rounding = f64::EPSILON * scene(1.0).stop_time / record.step();
+        let allowed = |of_change: f64| tolerance + rounding * (1.0 + of_change / 1e-10);
+        let (of_change, moved) =
+            (of_demands(&each.demands, &changed.demands), of_histories(&each.samples, &changed.samples));
+        for output_step in [1e3, 20.0 * record.step(), record.step()] {
+            let Response { demands, summary, samples, .. } =
+                Response::of(&Scene { output_step, ..scene(1.0) }).unwrap();
+            let found = of_demands(&each.demands, &demands);
+            assert!(found <= allowed(of_change), "{found} of {}", allowed(of_change));
+            assert_eq!([each.demands.half_cycles, each.corners], [demands.half_cycles, summary.work.corners]);
+            if output_step == record.step() {
+                let found = of_histories(&each.samples, &samples);
+                assert!(found <= allowed(moved), "{found} of {}", allowed(moved));
+            }
+        }
+    }
 }

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use rocking_wall::simulation::{Outputs, Simulation, segment_of};
 use rocking_wall::solver::{Demands, Work};
-use rocking_wall::wall::{Sides, Support, Warning};
+use rocking_wall::wall::{Sides, Support, Wall, Warning};
 use serde::{Serialize, Serializer};
 
 use crate::{Scene, SceneError};
@@ -177,6 +177,10 @@ fn falls<S: Serializer>(fate: &Fate, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_bool(fate.falls())
 }
 
+/// Lines of a history after which steps in which nothing happens are looked for again. To look for them takes
+/// as long as a few steps.
+const BETWEEN_TRIES: usize = 4;
+
 impl Response {
     /// Runs a scene.
     ///
@@ -188,26 +192,30 @@ impl Response {
         let excitation = motion.as_deref();
         let support_at = |time: f64| segment_of(excitation, time, 0.0).from;
         let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support_at(0.0))?;
-        let mut samples = Vec::with_capacity(count + 1);
-        let sample = |simulation: &Simulation, support: Support| Sample {
-            time: simulation.progress().time,
-            support,
-            outputs: simulation.outputs(support),
-        };
-        samples.push(sample(&simulation, support_at(0.0)));
-        let mut ties: Vec<_> =
-            simulation.wall().ties().iter().map(|_| Vec::with_capacity(count + 1)).collect();
-        add_ties(&mut ties, &simulation);
+        #[allow(clippy::cast_precision_loss, reason = "count ≤ 2e7")]
+        let time_of = |index: usize| (index as f64 * scene.output_step).min(scene.stop_time);
+        let mut history = History::new(simulation.wall(), count + 1);
+        history.add(&simulation, 0.0, support_at(0.0), motion_of(&simulation));
         let start = simulation.clone();
         let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
         let mut put_to_rest = false;
-        for index in 1..=count {
-            #[allow(clippy::cast_precision_loss, reason = "count ≤ 2e7")]
-            let time = (index as f64 * scene.output_step).min(scene.stop_time);
+        // outputs at the samples of a record: steps in which nothing happens are passed together
+        let record = excitation.filter(|motion| motion.step() == scene.output_step);
+        let (mut calm, mut next_try) = (Vec::new(), 0);
+        while history.samples.len() <= count {
+            if let Some(record) = record.filter(|_| history.samples.len() >= next_try) {
+                simulation.pass_calm_steps(scene.stop_time, record, &demands, &mut calm);
+                next_try = history.samples.len() + calm.len() + BETWEEN_TRIES;
+                for motion in calm.drain(..) {
+                    let time = time_of(history.samples.len());
+                    history.add(&simulation, time, support_at(time), motion);
+                }
+            }
+            let time = time_of(history.samples.len());
             put_to_rest |= simulation.advance_to(time, excitation, Some(&mut demands))?;
-            samples.push(sample(&simulation, support_at(time)));
-            add_ties(&mut ties, &simulation);
+            history.add(&simulation, time, support_at(time), motion_of(&simulation));
         }
+        let History { samples, ties } = history;
         let progress = simulation.progress();
         let u_ins = simulation.wall().body().instability;
         let fate = Fate::of(
@@ -275,14 +283,37 @@ impl Response {
     }
 }
 
-/// Adds what each tie does now.
-fn add_ties(ties: &mut [Vec<TieSample>], simulation: &Simulation) {
-    let (wall, state) = (simulation.wall(), simulation.progress().state);
-    let memory = wall.tie_memory_at(state.branch, state.displacement);
-    for (samples, tie) in ties.iter_mut().zip(wall.ties().iter()) {
-        let force = wall.force_of(tie, state.branch, state.displacement);
-        samples.push(TieSample { force, elongation: tie.elongations(&memory) });
+/// The lines of a history so far, and what each tie does at each.
+struct History {
+    samples: Vec<Sample>,
+    ties: Vec<Vec<TieSample>>,
+}
+
+impl History {
+    /// Prepares a number of lines of a wall.
+    fn new(wall: &Wall, count: usize) -> Self {
+        let ties = wall.ties().iter().map(|_| Vec::with_capacity(count)).collect();
+        Self { samples: Vec::with_capacity(count), ties }
     }
+
+    /// Adds a line at a time \[s\], with u \[m\] and u̇ \[m/s\] on the branch where the simulation is.
+    fn add(&mut self, simulation: &Simulation, time: f64, support: Support, motion: [f64; 2]) {
+        self.samples.push(Sample { time, support, outputs: simulation.outputs_at(motion, support) });
+        if !self.ties.is_empty() {
+            let (wall, branch, [u, _]) = (simulation.wall(), simulation.progress().state.branch, motion);
+            let memory = wall.tie_memory_at(branch, u);
+            for (samples, tie) in self.ties.iter_mut().zip(wall.ties().iter()) {
+                let force = wall.force_of(tie, branch, u);
+                samples.push(TieSample { force, elongation: tie.elongations(&memory) });
+            }
+        }
+    }
+}
+
+/// Returns u \[m\] and u̇ \[m/s\] now.
+fn motion_of(simulation: &Simulation) -> [f64; 2] {
+    let state = simulation.progress().state;
+    [state.displacement, state.velocity]
 }
 
 /// A column of the history beside the time.
