@@ -1,11 +1,14 @@
 //! Python environments under the target folder, their packages pinned by hash.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::command::{Result, output, program, read, remove_folder, root, succeed, target, write};
 
 /// Python as it is called.
 const PYTHON: &str = if cfg!(windows) { "python" } else { "python3" };
+/// The environment of the pip that fills the others.
+const PIP: &str = "pip";
 /// The folder of programs in an environment.
 const PROGRAMS: &str = if cfg!(windows) { "Scripts" } else { "bin" };
 
@@ -40,37 +43,41 @@ impl Environment {
         remove_folder(&self.folder)?;
         // without a pip of its own, which takes longer to install than most packages
         venv(&["--without-pip"], &self.folder)?;
-        let mut pip = self.pip_install()?;
+        let mut pip = if self.folder.ends_with(PIP) { self.first_install()? } else { self.pip_install()? };
         // the lock file lists every package that is installed; what it leaves out is not needed
         pip.args(["--no-compile", "--no-deps", "--require-hashes", "-r"]);
         succeed(pip.arg(lock), "check the network, then run the job again")
     }
 
-    /// Prepares an installation into the environment: by the pip of Python itself if it can, otherwise by one
-    /// pip for all environments.
-    pub(crate) fn pip_install(&self) -> Result<std::process::Command> {
-        let into = |python: &Path| {
-            let mut pip = program(python);
-            pip.args(["-m", "pip", "--python"]).arg(&self.folder);
-            pip
-        };
-        let installer = target().join("python").join("pip");
-        let own = installer.join(PROGRAMS).join("python");
-        let mut able = [Path::new(PYTHON), &own].into_iter();
-        let able = able.find(|python| output(into(python).arg("--version"), "").is_ok());
-        if able.is_none() {
-            let _ = remove_folder(&installer);
-            venv(&[], &installer)?;
+    /// Prepares an installation into the environment by the pip of the lock file: that of an older Python takes
+    /// twice as long.
+    pub(crate) fn pip_install(&self) -> Result<Command> {
+        Ok(self.install_by(&Self::of(PIP)?.programs().join("python")))
+    }
+
+    /// Prepares an installation by the pip of Python itself if it can, otherwise by one that Python brings.
+    fn first_install(&self) -> Result<Command> {
+        if output(self.install_by(Path::new(PYTHON)).arg("--help"), "").is_ok() {
+            return Ok(self.install_by(Path::new(PYTHON)));
         }
-        let mut pip = into(able.unwrap_or(&own));
+        let first = self.folder.with_file_name("first-pip");
+        remove_folder(&first)?;
+        venv(&[], &first)?;
+        Ok(self.install_by(&first.join(PROGRAMS).join("python")))
+    }
+
+    /// Prepares an installation by the pip of a Python.
+    fn install_by(&self, python: &Path) -> Command {
+        let mut pip = program(python);
+        pip.args(["-m", "pip", "--python"]).arg(&self.folder);
         pip.args(["install", "--quiet", "--disable-pip-version-check"]);
-        Ok(pip)
+        pip
     }
 
     /// Prepares a program of the environment. Python keeps the bytecode of what it imports, even where the
     /// shell forbids it: the tests start a hundred programs, and each would compile its modules again. The
     /// bytecode stands under the target folder, not beside the sources.
-    pub(crate) fn program(&self, name: &str) -> std::process::Command {
+    pub(crate) fn program(&self, name: &str) -> Command {
         let mut program = program(self.programs().join(name));
         program.env_remove("PYTHONDONTWRITEBYTECODE");
         program.env("PYTHONPYCACHEPREFIX", target().join("python").join("bytecode"));
