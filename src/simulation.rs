@@ -232,8 +232,8 @@ impl Simulation {
     }
 
     /// Passes the steps of a record in which nothing happens from here on, up to the last one before a time
-    /// \[s\], and adds u \[m\] and u̇ \[m/s\] at the end of each to `ends`. Their demands are those so far. There
-    /// may be none, and there are none between samples.
+    /// \[s\], and adds u \[m\] and u̇ \[m/s\] at the end of each to `ends`. They change no demand. There may
+    /// be none, and there are none between samples.
     pub fn pass_calm_steps(
         &mut self,
         end: f64,

@@ -49,7 +49,7 @@ impl Environment {
         succeed(pip.arg(lock), "check the network, then run the job again")
     }
 
-    /// Prepares an installation into the environment by the pip of the lock file: that of an older Python takes
+    /// Prepares an installation into the environment by the pip of a lock file: that of an older Python takes
     /// twice as long.
     pub(crate) fn pip_install(&self) -> Result<Command> {
         Ok(self.install_by(&Self::of(PIP)?.programs().join("python")))
