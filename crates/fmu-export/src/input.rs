@@ -26,11 +26,13 @@ pub struct Input {
 
 impl Input {
     /// Sets the value, and both rates to zero.
+    #[inline]
     pub fn set(&mut self, value: f64) {
         *self = Self { value, ..Self::default() };
     }
 
     /// Extrapolates the input to the end of a step of `duration` \[s\].
+    #[inline]
     pub fn extrapolate(&mut self, duration: f64) {
         // an input that is held is not written: the next step would wait for it, a fifth of its time
         if self.rate != 0.0 || self.last_rate != 0.0 {
