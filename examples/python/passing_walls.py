@@ -17,6 +17,7 @@ from pathlib import Path
 
 DOCUMENT = Path(__file__).parents[2] / "docs/reliability.md"
 WALLS = 42  # of a kind on one soil at one place
+SYNTHETIC = "synthetic = { count = 30 }"
 SOILS = "ABCD"
 LIMIT = 0.1  # probability of a fall above which walls are counted
 FACTORS = (1.35, 1)  # FC
@@ -246,7 +247,7 @@ RECORDED = {"changes": changes, "searches": searches, "recorded": tables}
 def main(program, folder, records=None):
     """Computes the tables, and writes them into the document."""
     folder = Path(folder).resolve()
-    made = [("synthetic", tables, "synthetic", "synthetic = { count = 30 }")]
+    made = [("synthetic", tables, "synthetic", SYNTHETIC)]
     if records:
         files = f"files = [{str(Path(records).resolve() / 'RSN*.AT2')!r}]"
         made += [(name, table, "recorded", files) for name, table in RECORDED.items()]
