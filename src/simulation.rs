@@ -189,7 +189,7 @@ impl Simulation {
     ) -> Result<bool, RunError> {
         let next = |simulation: &mut Self, demands: Option<&mut Demands>, _| {
             if let (Some(motion), Some(demands)) = (motion, demands) {
-                simulation.pass_steps(end, motion, demands, |_| ());
+                simulation.pass_calm_steps_seen(end, motion, demands, |_| ());
             }
             let now = simulation.progress.time;
             (segment_of(motion, now, end - now), end - now)
@@ -231,9 +231,29 @@ impl Simulation {
         Err(RunError::TooManySegments { limit: MOST_SEGMENTS })
     }
 
-    /// Passes the steps of a record in which nothing happens from here on, up to the last one before a time
-    /// \[s\], and adds u \[m\] and u̇ \[m/s\] at the end of each to `ends`. They change no demand. There may
-    /// be none, and there are none between samples.
+    /// Passes the calm steps that follow: steps of a record in which nothing happens and no demand changes.
+    /// Appends u \[m\] and u̇ \[m/s\] at the end of each to `ends`. Stops one step before `end` \[s\] or
+    /// earlier.
+    ///
+    /// It passes none unless the time is that of a sample, `end` is eight steps away, and one interpolated
+    /// record moves both supports. `demands` are those of the motion so far.
+    ///
+    /// ```
+    /// use ground_motion::SyntheticMotion;
+    /// use rocking_wall::simulation::{Excitation, Simulation};
+    /// use rocking_wall::wall::{Parameters, Support};
+    ///
+    /// let motion = Excitation::new(SyntheticMotion::default().motion()?, None);
+    /// let at_rest = Parameters { u_start: 0.0, ..Parameters::default() };
+    /// let mut simulation = Simulation::new(&at_rest, None, 0.0, Support::default())?;
+    /// let mut demands = simulation.demands(Support::default(), &[]);
+    /// simulation.advance_to(10.0, Some(&motion), Some(&mut demands))?;
+    /// let mut ends = Vec::new();
+    /// simulation.pass_calm_steps(20.0, &motion, &demands, &mut ends);
+    /// let passed = (simulation.progress().time - 10.0) / motion.step();
+    /// assert_eq!(passed.round(), ends.len() as f64);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn pass_calm_steps(
         &mut self,
         end: f64,
@@ -241,11 +261,17 @@ impl Simulation {
         demands: &Demands,
         ends: &mut Vec<[f64; 2]>,
     ) {
-        self.pass_steps(end, motion, demands, |end| ends.push(end));
+        self.pass_calm_steps_seen(end, motion, demands, |end| ends.push(end));
     }
 
     /// Passes calm steps, and shows `see` u and u̇ at the end of each.
-    fn pass_steps(&mut self, end: f64, motion: &Excitation, demands: &Demands, see: impl FnMut([f64; 2])) {
+    fn pass_calm_steps_seen(
+        &mut self,
+        end: f64,
+        motion: &Excitation,
+        demands: &Demands,
+        see: impl FnMut([f64; 2]),
+    ) {
         let time = self.progress.time;
         let step = motion.bottom().step();
         if end - time < FEWEST_CALM * step {

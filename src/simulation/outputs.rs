@@ -37,8 +37,8 @@ impl Simulation {
         self.outputs_at([displacement, velocity], support)
     }
 
-    /// Returns the outputs under a motion of the supports where u \[m\] and u̇ \[m/s\] are others, such as at
-    /// the end of a calm step, and all else is as it is now.
+    /// Returns the outputs for another u \[m\] and u̇ \[m/s\] than the present ones, such as those at the end
+    /// of a calm step. Branch, phase and ties are the present ones.
     pub fn outputs_at(&self, [displacement, velocity]: [f64; 2], support: Support) -> Outputs {
         let wall = self.wall();
         let body = wall.body();

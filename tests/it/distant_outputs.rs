@@ -119,25 +119,48 @@ struct Run {
     samples: Vec<Sample>,
 }
 
-/// Runs a scene from sample to sample: so few steps are not passed together.
+/// A wall at the start of a scene, with its demands.
+fn begun(scene: &Scene) -> (Simulation, Demands) {
+    let motion = scene.support_motion().unwrap().unwrap();
+    let support = motion.segment(0.0, 0.0).from;
+    let simulation = Simulation::new(&scene.parameters, None, 0.0, support).unwrap();
+    let demands = simulation.demands(support, &scene.thresholds);
+    (simulation, demands)
+}
+
+/// Runs a scene one sample at a time; `advance_to` passes no steps together over so short a time.
 fn step_by_step(scene: &Scene) -> Run {
-    let motion = scene.support_motion().unwrap();
-    let motion = motion.as_deref().unwrap();
-    let support_at = |time: f64| motion.segment(time, 0.0).from;
-    let mut simulation = Simulation::new(&scene.parameters, None, 0.0, support_at(0.0)).unwrap();
-    let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
+    let motion = scene.support_motion().unwrap().unwrap();
+    let (mut simulation, mut demands) = begun(scene);
     let mut samples = Vec::new();
     for index in 0..=scene.output_count().unwrap() {
-        let time = index as f64 * motion.step();
-        simulation.advance_to(time, Some(motion), Some(&mut demands)).unwrap();
-        let support = support_at(time);
+        let time = (index as f64 * motion.step()).min(scene.stop_time);
+        simulation.advance_to(time, Some(&motion), Some(&mut demands)).unwrap();
+        let support = motion.segment(time, 0.0).from;
         samples.push(Sample { time, support, outputs: simulation.outputs(support) });
     }
     Run { demands, corners: simulation.progress().work.corners, samples }
 }
 
+/// Returns the share of the steps of a record that are passed together where there is an output at each.
+fn share_passed(scene: &Scene) -> f64 {
+    let motion = scene.support_motion().unwrap().unwrap();
+    let (mut simulation, mut demands) = begun(scene);
+    let (mut ends, mut index) = (Vec::new(), 0);
+    let (stop, step, count) = (scene.stop_time, motion.step(), scene.output_count().unwrap());
+    while index < count {
+        let before = ends.len();
+        simulation.pass_calm_steps(stop, &motion, &demands, &mut ends);
+        index += ends.len() - before;
+        assert!((simulation.progress().time / step - index as f64).abs() < 1e-6, "{index} steps");
+        index += 1;
+        simulation.advance_to((index as f64 * step).min(stop), Some(&motion), Some(&mut demands)).unwrap();
+    }
+    ends.len() as f64 / count as f64
+}
+
 /// The largest difference of extremes of u, u̇ and ü, relative to their size.
-fn of_demands(one: &Demands, other: &Demands) -> f64 {
+fn difference_of_demands(one: &Demands, other: &Demands) -> f64 {
     let extremes = |Demands { displacement: u, velocity: v, acceleration: a, .. }: &Demands| {
         [u, v, a].map(|of| [of.highest.value, of.lowest.value])
     };
@@ -147,7 +170,7 @@ fn of_demands(one: &Demands, other: &Demands) -> f64 {
 }
 
 /// The largest difference of a column of two histories, relative to its size.
-fn of_histories(one: &[Sample], other: &[Sample]) -> f64 {
+fn difference_of_histories(one: &[Sample], other: &[Sample]) -> f64 {
     assert_eq!(one.len(), other.len());
     let parts = COLUMNS.map(|(_, _, value)| {
         let pairs = one.iter().zip(other).map(|(a, b)| [value(a), value(b)]);
@@ -160,9 +183,9 @@ fn of_histories(one: &[Sample], other: &[Sample]) -> f64 {
 }
 
 /// Steps of a record in which nothing happens are passed together: demands, corners, half cycles and history
-/// are those of steps one by one. The times of samples are rounded by 2.2e-16 of the time at most, which
-/// changes the record by that part of a step. A run amplifies it as it does a change of the record by 1e-10;
-/// runs with secant damping differ by the tolerance too.
+/// are those of steps one by one. The time of a sample is rounded by at most 2.2e-16 of itself, so the length
+/// of a step differs from h by at most 2.2e-16 T. A run is assumed to amplify this part of a step,
+/// 2.2e-16 T/h, as it amplifies a change of the record by 1e-10. With secant damping the tolerance is added.
 #[test]
 fn steps_together_are_those_one_by_one() {
     let parameters = Parameters { height: 3.0, thickness: 0.25, u_start: 0.0, ..Parameters::default() };
@@ -175,29 +198,42 @@ fn steps_together_are_those_one_by_one() {
     };
     let strip = Parameters { mechanism: Mechanism::VerticalSpanning, ..constant.clone() };
     let tied = Parameters { tie_height: 2.0, tie_stiffness: 3e5, tie_slack: 5e-3, ..constant.clone() };
+    let yielding = Parameters { tie_strength: 1e3, tie_ultimate: 0.02, ..tied.clone() };
     let ratio = damped(DampingModel::ConstantRatio);
     let record = SyntheticMotion::default().motion().unwrap().checked_scaled(0.5).unwrap();
-    for (parameters, tolerance) in [(constant, 0.0), (rigid, 0.0), (strip, 0.0), (tied, 0.0), (ratio, 1e-6)] {
+    let walls = [constant, rigid, strip, tied, yielding].map(|wall| (wall, 0.0));
+    for (parameters, tolerance) in walls.into_iter().chain([(ratio, 1e-6)]) {
         let scene = |scale: f64| {
             let mut scene = Scene { parameters: parameters.clone(), ..Scene::default() };
-            scene.shake(Excitation::new(record.checked_scaled(scale).unwrap(), None), 2.0, Vec::new());
+            // the last line stands between samples
+            scene.shake(Excitation::new(record.checked_scaled(scale).unwrap(), None), 2.003, Vec::new());
             scene
         };
         let (each, changed) = (step_by_step(&scene(1.0)), step_by_step(&scene(1.0 + 1e-10)));
         let rounding = f64::EPSILON * scene(1.0).stop_time / record.step();
         let allowed = |of_change: f64| tolerance + rounding * (1.0 + of_change / 1e-10);
-        let (of_change, moved) =
-            (of_demands(&each.demands, &changed.demands), of_histories(&each.samples, &changed.samples));
+        let allowed_of_demands = allowed(difference_of_demands(&each.demands, &changed.demands));
         for output_step in [1e3, 20.0 * record.step(), record.step()] {
-            let Response { demands, summary, samples, .. } =
+            let Response { demands, summary, samples, ties, .. } =
                 Response::of(&Scene { output_step, ..scene(1.0) }).unwrap();
-            let found = of_demands(&each.demands, &demands);
-            assert!(found <= allowed(of_change), "{found} of {}", allowed(of_change));
+            let found = difference_of_demands(&each.demands, &demands);
+            assert!(found <= allowed_of_demands, "{found} of {allowed_of_demands}");
             assert_eq!([each.demands.half_cycles, each.corners], [demands.half_cycles, summary.work.corners]);
             if output_step == record.step() {
-                let found = of_histories(&each.samples, &samples);
-                assert!(found <= allowed(moved), "{found} of {}", allowed(moved));
+                let found = difference_of_histories(&each.samples, &samples);
+                let allowed = allowed(difference_of_histories(&each.samples, &changed.samples));
+                assert!(found <= allowed, "{found} of {allowed}");
+            }
+            for tie in &ties {
+                let told = tie.iter().map(|tie| (tie.force, tie.elongation));
+                let outputs =
+                    samples.iter().map(|line| (line.outputs.tie_force, line.outputs.tie_elongation));
+                assert!(told.eq(outputs));
             }
         }
+        let share = share_passed(&scene(1.0));
+        // 0.63 to 0.81 were, and 0.27 with secant damping, of which only elastic steps are calm
+        let least = if tolerance == 0.0 { 0.5 } else { 0.2 };
+        assert!(share > least, "{share} of the steps are passed together");
     }
 }

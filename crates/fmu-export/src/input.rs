@@ -26,6 +26,7 @@ pub struct Input {
 
 impl Input {
     /// Sets the value, and both rates to zero.
+    // as the next one, inlined into crates that are optimised in development: this one is not
     #[inline]
     pub fn set(&mut self, value: f64) {
         *self = Self { value, ..Self::default() };
@@ -34,7 +35,8 @@ impl Input {
     /// Extrapolates the input to the end of a step of `duration` \[s\].
     #[inline]
     pub fn extrapolate(&mut self, duration: f64) {
-        // an input that is held is not written: the next step would wait for it, a fifth of its time
+        // An input that is held is not written again. The next step would have to wait until these numbers
+        // are stored: a fifth of a step.
         if self.rate != 0.0 || self.last_rate != 0.0 {
             *self = Self { value: self.value + self.rate * duration, rate: 0.0, last_rate: self.rate };
         }

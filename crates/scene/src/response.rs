@@ -177,9 +177,9 @@ fn falls<S: Serializer>(fate: &Fate, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_bool(fate.falls())
 }
 
-/// Lines of a history after which steps in which nothing happens are looked for again. To look for them takes
-/// as long as a few steps.
-const BETWEEN_TRIES: usize = 4;
+/// Lines that are computed one by one before calm steps are looked for again. That costs as much as a few
+/// steps.
+const LINES_BETWEEN_TRIES: usize = 4;
 
 impl Response {
     /// Runs a scene.
@@ -199,16 +199,16 @@ impl Response {
         let start = simulation.clone();
         let mut demands = simulation.demands(support_at(0.0), &scene.thresholds);
         let mut put_to_rest = false;
-        // outputs at the samples of a record: steps in which nothing happens are passed together
+        // where there is an output at each sample of a record, calm steps are passed together
         let record = excitation.filter(|motion| motion.step() == scene.output_step);
         let (mut calm, mut next_try) = (Vec::new(), 0);
         while history.samples.len() <= count {
             if let Some(record) = record.filter(|_| history.samples.len() >= next_try) {
                 simulation.pass_calm_steps(scene.stop_time, record, &demands, &mut calm);
-                next_try = history.samples.len() + calm.len() + BETWEEN_TRIES;
-                for motion in calm.drain(..) {
+                next_try = history.samples.len() + calm.len() + LINES_BETWEEN_TRIES;
+                for end in calm.drain(..) {
                     let time = time_of(history.samples.len());
-                    history.add(&simulation, time, support_at(time), motion);
+                    history.add(&simulation, time, support_at(time), end);
                 }
             }
             let time = time_of(history.samples.len());
@@ -290,13 +290,14 @@ struct History {
 }
 
 impl History {
-    /// Prepares a number of lines of a wall.
+    /// Makes an empty history of a wall, with room for a number of lines.
     fn new(wall: &Wall, count: usize) -> Self {
         let ties = wall.ties().iter().map(|_| Vec::with_capacity(count)).collect();
         Self { samples: Vec::with_capacity(count), ties }
     }
 
-    /// Adds a line at a time \[s\], with u \[m\] and u̇ \[m/s\] on the branch where the simulation is.
+    /// Adds the line of a time \[s\] at which u \[m\] and u̇ \[m/s\] are `motion`. Branch and ties are those
+    /// of the simulation now.
     fn add(&mut self, simulation: &Simulation, time: f64, support: Support, motion: [f64; 2]) {
         self.samples.push(Sample { time, support, outputs: simulation.outputs_at(motion, support) });
         if !self.ties.is_empty() {
