@@ -261,8 +261,8 @@ impl Simulation {
         demands: &Demands,
         ends: &mut Vec<[f64; 2]>,
     ) {
-        // a list, not the caller's closure: generic code is compiled where it is called, in builds from source
-        // without optimisation
+        // a list, not the caller's closure: generic code is compiled where it is called, without optimisation
+        // in builds from source
         self.pass_calm_steps_seen(end, motion, demands, |end| ends.push(end));
     }
 
